@@ -17,7 +17,7 @@ void cli_set_language(const char* lang) { spoken = lang; }
 static const char* in_language(const char* sentence) {
   static const char* const list[][2] = {
 #define PL_SENTENCE(english, german) {english, german},
-#include "cli_sentences.def"
+#include "../src/messages/cli.def"
 #undef PL_SENTENCE
   };
   bool german = strcmp(spoken ? spoken : cli_environment_language(), "de") == 0;

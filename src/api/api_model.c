@@ -219,7 +219,8 @@ static pleuel_status tell(pleuel_model* m, void* argument) {
   }
   if (n > MOST_MESSAGES) {
     pl_text_addf(
-        &out, t->style.lang == PL_GERMAN ? "und %d weitere Meldungen\n" : "and %d more messages\n",
+        &out,
+        t->style.lang == PL_GERMAN ? pl_german("and %d more messages\n") : "and %d more messages\n",
         n - MOST_MESSAGES);
   }
   t->text = pl_text_string(&out);

@@ -239,27 +239,14 @@ typedef struct pl_hovering {
 } pl_hovering;
 
 static const char* kind_words(pleuel_kind kind, pl_language lang) {
-  static const char* const words[][2] = {
-      {"time", "Zeit"},
-      {"coordinate", "Koordinate"},
-      {"velocity", "Geschwindigkeit"},
-      {"multiplier", "Multiplikator"},
-      {"output", "Ausgabegröße"},
-      {"parameter", "Parameter"},
-      {"input", "Eingang"},
-      {"constraint", "Zwangsbedingung"},
-      {"mass", "Masse"},
-      {"body", "Körper"},
-      {"point", "Punkt"},
-      {"force", "Kraft"},
-      {"event", "Ereignis"},
-      {"abbreviation", "Abkürzung"},
-      {"function", "Funktion"},
-      {"index", "Index"},
-      {"axis", "Achse"},
-      {"request", "Anforderung"},
+  static const char* const words[] = {
+      PL_KEY("time"),   PL_KEY("coordinate"),   PL_KEY("velocity"), PL_KEY("multiplier"),
+      PL_KEY("output"), PL_KEY("parameter"),    PL_KEY("input"),    PL_KEY("constraint"),
+      PL_KEY("mass"),   PL_KEY("body"),         PL_KEY("point"),    PL_KEY("force"),
+      PL_KEY("event"),  PL_KEY("abbreviation"), PL_KEY("function"), PL_KEY("index"),
+      PL_KEY("axis"),   PL_KEY("request"),
   };
-  return words[kind][lang];
+  return pl_in_language(lang, words[kind]);
 }
 
 static const pleuel_name* name_of_use(const pleuel_model* m, const pl_use* u) {
@@ -283,7 +270,7 @@ static void hover_name(pl_text* out, const pleuel_model* m, const pl_use* u, pl_
   if (one && one->unit) pl_text_addf(out, " [%s]", one->unit);
   if (one && one->has_value) {
     bool starts = one->kind == PLEUEL_KIND_COORDINATE || one->kind == PLEUEL_KIND_VELOCITY;
-    const char* before = !starts ? "=" : lang == PL_GERMAN ? "beginnt bei" : "starts at";
+    const char* before = !starts ? "=" : lang == PL_GERMAN ? pl_german("starts at") : "starts at";
     pl_text_addf(out, " %s %s", before, pl_shortest_double(out->arena, one->value));
     if (one->unit && strcmp(one->unit, "1") != 0) pl_text_addf(out, " %s", one->unit);
   }
@@ -294,8 +281,8 @@ static void hover_name(pl_text* out, const pleuel_model* m, const pl_use* u, pl_
   if (text && strchr(text, '\n')) *strchr((char*)(uintptr_t)text, '\n') = '\0';
   if (text) {
     pl_text_addf(out, "\n\n    %s\n", text);
-    pl_text_addf(out, lang == PL_GERMAN ? "\n%s, Zeile %d" : "\n%s, line %d", d.source->name,
-                 pl_span_place(d).line);
+    pl_text_addf(out, lang == PL_GERMAN ? pl_german("\n%s, line %d") : "\n%s, line %d",
+                 d.source->name, pl_span_place(d).line);
   }
 }
 

@@ -105,7 +105,7 @@ static void simulate_for_solution(pleuel_model* m, const pleuel_solve_options* o
     m->is_run = true;
     m->run = PLEUEL_UNSUPPORTED;
     snprintf(m->run_message, sizeof m->run_message,
-             m->job.lang == PL_GERMAN ? "%d Koordinaten sind eine Sache für pleuel sim"
+             m->job.lang == PL_GERMAN ? pl_german("%d coordinates are a matter for pleuel sim")
                                       : "%d coordinates are a matter for pleuel sim",
              n);
     return;

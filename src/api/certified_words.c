@@ -14,8 +14,9 @@ typedef struct teller {
   pl_notation notation;
 } teller;
 
-static const char* say(const teller* t, const char* const words[2]) {
-  return t->ascii ? pl_ascii_of(t->arena, words[t->lang]) : words[t->lang];
+static const char* say(const teller* t, const char* sentence) {
+  const char* s = pl_in_language(t->lang, sentence);
+  return t->ascii ? pl_ascii_of(t->arena, s) : s;
 }
 
 static const char* number(const teller* t, double x, int digits) {
@@ -30,51 +31,34 @@ static const char* bound(const teller* t, double x) {
 }
 
 // ----------------------------------------------------------------------------------------- reasons
-static const char* const refusal_words[PL_N_REFUSALS][2] = {
-    [PL_REFUSED_RUN] = {"the run did not reach its end",
-                        "die Rechnung kam nicht bis zu ihrem Ende"},
-    [PL_REFUSED_FRICTION] = {"there is friction on %s, which is not certified",
-                             "an %s wirkt Reibung, und die wird nicht zertifiziert"},
+static const char* const refusal_words[PL_N_REFUSALS] = {
+    [PL_REFUSED_RUN] = PL_KEY("the run did not reach its end"),
+    [PL_REFUSED_FRICTION] = PL_KEY("there is friction on %s, which is not certified"),
     [PL_REFUSED_EVENT] =
-        {"the event %s may change the motion in a way that is not certified",
-         "das Ereignis %s kann die Bewegung auf eine Art ändern, die nicht zertifiziert wird"},
-    [PL_REFUSED_BACKWARD] =
-        {"contacts and events are certified forwards in time only",
-         "Kontakte und Ereignisse werden nur vorwärts in der Zeit zertifiziert"},
-    [PL_REFUSED_TURN] = {"bodies whose attitude is a quaternion are not certified",
-                         "Körper, deren Lage ein Quaternion ist, werden nicht zertifiziert"},
-    [PL_REFUSED_SENSITIVITIES] = {"sensitivities are not certified",
-                                  "Empfindlichkeiten werden nicht zertifiziert"},
-    [PL_REFUSED_ROWS] = {"there are too many rows", "es sind zu viele Zeilen"},
+        PL_KEY("the event %s may change the motion in a way that is not certified"),
+    [PL_REFUSED_BACKWARD] = PL_KEY("contacts and events are certified forwards in time only"),
+    [PL_REFUSED_TURN] = PL_KEY("bodies whose attitude is a quaternion are not certified"),
+    [PL_REFUSED_SENSITIVITIES] = PL_KEY("sensitivities are not certified"),
+    [PL_REFUSED_ROWS] = PL_KEY("there are too many rows"),
 };
 
-static const char* const end_words[PL_N_CERTIFY_ENDS][2] = {
-    [PL_CERTIFY_TOO_LARGE] = {"the system is too large", "das System ist zu groß"},
-    [PL_CERTIFY_NO_EXACT] = {"%s has no exact value", "%s hat keinen exakten Wert"},
+static const char* const end_words[PL_N_CERTIFY_ENDS] = {
+    [PL_CERTIFY_TOO_LARGE] = PL_KEY("the system is too large"),
+    [PL_CERTIFY_NO_EXACT] = PL_KEY("%s has no exact value"),
     [PL_CERTIFY_REDUNDANT] =
-        {"constraints may depend on each other, and that they do is not proved",
-         "Zwangsbedingungen hängen vielleicht voneinander ab, und das ist nicht bewiesen"},
-    [PL_CERTIFY_START] =
-        {"that a start exists near that of the run is not proved",
-         "dass es nahe dem Anfang der Rechnung einen exakten gibt, ist nicht bewiesen"},
-    [PL_CERTIFY_ELSEWHERE] = {"the exact start is not that of the run",
-                              "der exakte Anfang ist nicht der der Rechnung"},
-    [PL_CERTIFY_STEP] = {"no further step could be proved: the position is nearly singular, or a "
-                         "function is at the end of its domain or at a kink",
-                         "kein weiterer Schritt ließ sich beweisen: die Lage ist fast singulär, "
-                         "oder eine Funktion ist am Rand ihres Bereichs oder an einem Knick"},
-    [PL_CERTIFY_BUDGET] = {"the work that is allowed is used up",
-                           "die erlaubte Arbeit ist aufgebraucht"},
-    [PL_CERTIFY_WIDE] = {"the precision that is allowed does not suffice",
-                         "die erlaubte Genauigkeit reicht nicht"},
-    [PL_CERTIFY_INTERRUPTED] = {"interrupted", "unterbrochen"},
-    [PL_CERTIFY_WATCH] = {"the event %s speaks of forces or accelerations",
-                          "das Ereignis %s spricht von Kräften oder Beschleunigungen"},
-    [PL_CERTIFY_IMPACT] = {"%s is met there, and impacts are not certified",
-                           "dort wird %s getroffen, und Stöße werden nicht zertifiziert"},
+        PL_KEY("constraints may depend on each other, and that they do is not proved"),
+    [PL_CERTIFY_START] = PL_KEY("that a start exists near that of the run is not proved"),
+    [PL_CERTIFY_ELSEWHERE] = PL_KEY("the exact start is not that of the run"),
+    [PL_CERTIFY_STEP] = PL_KEY(
+        "no further step could be proved: the position is nearly singular, or a "
+        "function is at the end of its domain or at a kink"),
+    [PL_CERTIFY_BUDGET] = PL_KEY("the work that is allowed is used up"),
+    [PL_CERTIFY_WIDE] = PL_KEY("the precision that is allowed does not suffice"),
+    [PL_CERTIFY_INTERRUPTED] = PL_KEY("interrupted"),
+    [PL_CERTIFY_WATCH] = PL_KEY("the event %s speaks of forces or accelerations"),
+    [PL_CERTIFY_IMPACT] = PL_KEY("%s is met there, and impacts are not certified"),
     [PL_CERTIFY_UNDECIDED] =
-        {"a contact or event is grazed there, or several come at one time",
-         "ein Kontakt oder Ereignis wird dort gestreift, oder mehrere fallen zusammen"},
+        PL_KEY("a contact or event is grazed there, or several come at one time"),
 };
 
 // ORDER REFUSALS, ORDER ENDS: words of the JSON document.
@@ -120,15 +104,12 @@ static const char* name_of(const teller* t, int i) {
   return s->constraints[i - 2 * s->n_q].column;
 }
 
-static void tell_group(teller* t, int time, int from, int to, const char* const what[2]) {
+static void tell_group(teller* t, int time, int from, int to, const char* what) {
   extremes e = extremes_of(t->c, time, from, to);
   if (e.worst < 0 && e.radius == 0) return;
-  static const char* const within[2] = {"       %s: proved to within %s",
-                                        "       %s: auf %s bewiesen"};
-  static const char* const off[2] = {"; this run is off by %s (%s)\n",
-                                     "; diese Rechnung weicht um %s ab (%s)\n"};
-  static const char* const at_most[2] = {"; this run is off by at most %s (%s)\n",
-                                         "; diese Rechnung weicht um höchstens %s ab (%s)\n"};
+  static const char* const within = PL_KEY("       %s: proved to within %s");
+  static const char* const off = PL_KEY("; this run is off by %s (%s)\n");
+  static const char* const at_most = PL_KEY("; this run is off by at most %s (%s)\n");
   pl_text_addf(t->out, say(t, within), say(t, what), bound(t, e.radius));
   if (e.worst < 0) pl_text_add(t->out, "\n");
   else
@@ -137,11 +118,9 @@ static void tell_group(teller* t, int time, int from, int to, const char* const 
 }
 
 static void tell_time(teller* t, int time) {
-  static const char* const head[2] = {"     certified at t = %s%s\n",
-                                      "     zertifiziert bei t = %s%s\n"};
-  static const char *const q[2] = {"coordinates", "Koordinaten"},
-                           *const v[2] = {"velocities", "Geschwindigkeiten"},
-                           *const l[2] = {"multipliers", "Multiplikatoren"};
+  static const char* const head = PL_KEY("     certified at t = %s%s\n");
+  static const char *const q = PL_KEY("coordinates"), *const v = PL_KEY("velocities"),
+                           *const l = PL_KEY("multipliers");
   const pl_certificate_of_run* c = t->c;
   pl_text_addf(t->out, say(t, head), number(t, c->time[time], 12),
                t->m->model->uses_units ? " s" : "");
@@ -153,14 +132,11 @@ static void tell_time(teller* t, int time) {
 // --------------------------------------------------------------------------------------------- all
 static void tell_start(teller* t) {
   const pl_certified* p = &t->c->proof;
-  static const char* const pinned[2] = {
-      "     nothing determines the start of %s: the number of the run was taken as exact\n",
-      "     den Anfang von %s bestimmt nichts: die Zahl der Rechnung gilt als exakt\n"};
-  static const char* const moved[2] = {
+  static const char* const pinned =
+      PL_KEY("     nothing determines the start of %s: the number of the run was taken as exact\n");
+  static const char* const moved = PL_KEY(
       "     the start given for %s contradicts the constraints by %s (relative) and was replaced "
-      "by what follows from them\n",
-      "     der gegebene Anfang von %s widerspricht den Zwangsbedingungen um %s (relativ) und "
-      "wurde durch das ersetzt, was aus ihnen folgt\n"};
+      "by what follows from them\n");
   for (int i = 0; i < p->n_pinned; i++)
     pl_text_addf(t->out, say(t, pinned), name_of(t, p->pinned[i]));
   for (int i = 0; i < p->n_moved; i++)
@@ -175,14 +151,10 @@ static const char* name_of_happening(const teller* t, int i) {
 }
 
 static void tell_happenings(teller* t) {
-  static const char* const what[][2] = {{"%s lets go", "%s löst sich"},
-                                        {"%s", "%s"},
-                                        {"%s: stop", "%s: Ende"},
-                                        {"%s is met", "%s wird getroffen"}};
-  static const char* const when[2] = {"     certified: %s at t = %s, proved to within %s",
-                                      "     zertifiziert: %s bei t = %s, auf %s bewiesen"};
-  static const char* const off[2] = {"; this run is off by at most %s\n",
-                                     "; diese Rechnung weicht um höchstens %s ab\n"};
+  static const char* const what[] = {PL_KEY("%s lets go"), "%s", PL_KEY("%s: stop"),
+                                     PL_KEY("%s is met")};
+  static const char* const when = PL_KEY("     certified: %s at t = %s, proved to within %s");
+  static const char* const off = PL_KEY("; this run is off by at most %s\n");
   for (int i = 0; i < t->c->proof.n_happened; i++) {
     const pl_certified_value* v = &t->c->happened[i];
     const char* words = pl_format(t->arena, say(t, what[t->c->proof.happened[i].kind]),
@@ -196,11 +168,9 @@ static void tell_happenings(teller* t) {
 
 static void tell_how(teller* t) {
   const pl_certified* p = &t->c->proof;
-  static const char* const how[2] = {
+  static const char* const how = PL_KEY(
       "       %ld proved steps of order up to %d in balls of %ld bits; the motion and the "
-      "arithmetic widened them by %s bits\n",
-      "       %ld bewiesene Schritte der Ordnung bis %d in Kugeln von %ld Bit; Bewegung und "
-      "Arithmetik weiteten sie um %s Bit\n"};
+      "arithmetic widened them by %s bits\n");
   if (p->steps > 0)
     pl_text_addf(t->out, say(t, how), p->steps, p->order, p->bits,
                  number(t, fmax(p->bits_lost, 0), 3));
@@ -210,13 +180,10 @@ void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bo
   const pl_certificate_of_run* c = m->certified;
   if (!c) return;
   teller t = {out, m, c, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
-  static const char* const not_at_all[2] = {"     not certified: %s\n",
-                                            "     nicht zertifiziert: %s\n"};
-  static const char* const until[2] = {
-      "     the motion exists until t = %s, beyond it nothing is certified: %s\n",
-      "     die Bewegung existiert bis t = %s, danach ist nichts zertifiziert: %s\n"};
-  static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n",
-                                      "     die Einschließung ist weiter als verlangt: %s\n"};
+  static const char* const not_at_all = PL_KEY("     not certified: %s\n");
+  static const char* const until =
+      PL_KEY("     the motion exists until t = %s, beyond it nothing is certified: %s\n");
+  static const char* const wide = PL_KEY("     the enclosure is wider than asked for: %s\n");
   int done = c->refusal == PL_CERTIFY_TRIED ? c->proof.n_done : 0;
   // all times are in the JSON document
   if (c->refusal == PL_CERTIFY_TRIED && (done > 0 || c->proof.n_happened > 0)) {

@@ -64,35 +64,31 @@ static const char* event_words(const pl_teller* t, const pl_result_event* e) {
   switch (e->kind) {
     case PL_EV_RELEASE:
       if (e->at_start)
-        return pl_format(t->arena,
-                         say(t, "%s lets go at once: its force would have to pull",
-                             "%s löst sich sofort: die Kraft müsste ziehen"),
-                         label);
-      return pl_format(t->arena, say(t, "%s lets go", "%s löst sich"), label);
-    case PL_EV_IMPACT: return pl_format(t->arena, say(t, "impact on %s", "Stoß auf %s"), label);
-    case PL_EV_SLACK: return pl_format(t->arena, say(t, "%s goes slack", "%s wird schlaff"), label);
+        return pl_format(
+            t->arena, say(t, PL_BOTH("%s lets go at once: its force would have to pull")), label);
+      return pl_format(t->arena, say(t, PL_BOTH("%s lets go")), label);
+    case PL_EV_IMPACT: return pl_format(t->arena, say(t, PL_BOTH("impact on %s")), label);
+    case PL_EV_SLACK: return pl_format(t->arena, say(t, PL_BOTH("%s goes slack")), label);
     case PL_EV_TAUT:
       if (e->bounces) break;
-      return pl_format(t->arena,
-                       e->jump
-                           ? say(t, "%s goes taut with a jerk", "%s strafft sich mit einem Ruck")
-                           : say(t, "%s goes taut", "%s strafft sich"),
-                       label);
-    case PL_EV_STICK: return pl_format(t->arena, say(t, "%s sticks", "%s haftet"), label);
-    case PL_EV_SLIP: return pl_format(t->arena, say(t, "%s slips", "%s gleitet"), label);
+      return pl_format(
+          t->arena,
+          e->jump ? say(t, PL_BOTH("%s goes taut with a jerk")) : say(t, PL_BOTH("%s goes taut")),
+          label);
+    case PL_EV_STICK: return pl_format(t->arena, say(t, PL_BOTH("%s sticks")), label);
+    case PL_EV_SLIP: return pl_format(t->arena, say(t, PL_BOTH("%s slips")), label);
     case PL_EV_CONTACT:
       if (e->bounces) break;
-      return pl_format(t->arena, say(t, "contact with %s", "Kontakt mit %s"), label);
-    case PL_EV_SINGULAR: return say(t, "singular position", "singuläre Lage");
-    case PL_EV_STOP: return pl_format(t->arena, say(t, "%s: stop", "%s: Ende"), label);
+      return pl_format(t->arena, say(t, PL_BOTH("contact with %s")), label);
+    case PL_EV_SINGULAR: return say(t, PL_BOTH("singular position"));
+    case PL_EV_STOP: return pl_format(t->arena, say(t, PL_BOTH("%s: stop")), label);
     case PL_EV_EVENT: break;
   }
   if (e->bounces)
     return pl_format(
         t->arena,
-        say(t, "%s at rest after endless bounces (%ld followed, the rest summed)",
-            "%s in Ruhe nach unendlich vielen Stößen (%ld verfolgt, der Rest summiert)"),
-        label, e->bounces);
+        say(t, PL_BOTH("%s at rest after endless bounces (%ld followed, the rest summed)")), label,
+        e->bounces);
   return label;
 }
 
@@ -118,8 +114,7 @@ static void tell_events(pl_teller* t) {
     pl_text_add(t->out, "\n");
   }
   if (r->events.n > MOST_EVENTS) {
-    pl_text_addf(t->out, say(t, "     and %d more events\n", "     und %d weitere Ereignisse\n"),
-                 r->events.n - MOST_EVENTS);
+    pl_text_addf(t->out, say(t, PL_BOTH("     and %d more events\n")), r->events.n - MOST_EVENTS);
   }
 }
 
@@ -132,25 +127,22 @@ static const char* precision_word(const pl_stats* s) {
 // Which method took how many steps.
 static void tell_steps(pl_teller* t, const pl_stats* s) {
   if (s->steps_implicit < s->steps || s->steps == 0) {
-    pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"),
+    pl_text_addf(t->out, say(t, PL_BOTH("     %ld steps of order %d")),
                  s->steps - s->steps_implicit, s->order);
   }
-  if (s->precision == PL_PRECISION_LONG)
-    pl_text_add(t->out, say(t, " in 80-bit numbers", " in Zahlen mit 80 Bit"));
+  if (s->precision == PL_PRECISION_LONG) pl_text_add(t->out, say(t, PL_BOTH(" in 80-bit numbers")));
   if (s->precision == PL_PRECISION_QUAD)
-    pl_text_add(t->out, say(t, " in 128-bit numbers", " in Zahlen mit 128 Bit"));
+    pl_text_add(t->out, say(t, PL_BOTH(" in 128-bit numbers")));
   if (s->steps_implicit == 0) return;
   const char* unit = t->m->model->uses_units ? " s" : "";
   if (s->steps_implicit == s->steps) {
-    pl_text_addf(t->out,
-                 say(t, "     %ld implicit steps of order %d (Radau IIA)",
-                     "     %ld implizite Schritte der Ordnung %d (Radau IIA)"),
+    pl_text_addf(t->out, say(t, PL_BOTH("     %ld implicit steps of order %d (Radau IIA)")),
                  s->steps, s->order_implicit);
   } else {
-    pl_text_addf(t->out,
-                 say(t, "; stiff from t = %s%s, %ld implicit steps of order %d (Radau IIA)",
-                     "; steif ab t = %s%s, %ld implizite Schritte der Ordnung %d (Radau IIA)"),
-                 number(t, s->t_implicit, 3), unit, s->steps_implicit, s->order_implicit);
+    pl_text_addf(
+        t->out,
+        say(t, PL_BOTH("; stiff from t = %s%s, %ld implicit steps of order %d (Radau IIA)")),
+        number(t, s->t_implicit, 3), unit, s->steps_implicit, s->order_implicit);
   }
 }
 
@@ -159,26 +151,24 @@ static void tell_accuracy(pl_teller* t) {
   const pl_stats* s = &r->stats;
   tell_steps(t, s);
   if (t->m->recording->setup.n_c > 0)
-    pl_text_addf(t->out, say(t, ", constraints kept to %s", ", Zwangsbedingungen auf %s erfüllt"),
-                 number(t, s->max_g, 2));
+    pl_text_addf(t->out, say(t, PL_BOTH(", constraints kept to %s")), number(t, s->max_g, 2));
   if (t->m->recording->setup.energy_conserved && !isnan(s->energy_drift)) {
-    pl_text_addf(t->out, say(t, ", energy to %s", ", Energie auf %s"),
-                 number(t, s->energy_drift, 2));
+    pl_text_addf(t->out, say(t, PL_BOTH(", energy to %s")), number(t, s->energy_drift, 2));
   }
   pl_text_add(t->out, "\n");
   if (t->m->tol_raised) {
     pl_text_addf(
         t->out,
-        say(t, "     the tolerance was raised to %s, which is what the arithmetic can do\n",
-            "     die Toleranz wurde auf %s erhöht, mehr gibt die Rechengenauigkeit nicht her\n"),
+        say(t,
+            PL_BOTH("     the tolerance was raised to %s, which is what the arithmetic can do\n")),
         number(t, t->m->tol_used, 2));
   }
   if (t->m->start.largest_move > 0) {
     pl_text_addf(
         t->out,
-        say(t, "     given start values were moved by %s (relative) to meet the constraints\n",
-            "     gegebene Startwerte wurden um %s (relativ) verschoben, damit die "
-            "Zwangsbedingungen gelten\n"),
+        say(t,
+            PL_BOTH(
+                "     given start values were moved by %s (relative) to meet the constraints\n")),
         number(t, t->m->start.largest_move, 2));
   }
 }
@@ -188,23 +178,17 @@ static void tell_stop(pl_teller* t, bool started) {
   const pleuel_model* m = t->m;
   if (m->run == PLEUEL_OK || !m->run_message[0]) return;
   pl_text_addf(t->out,
-               started ? say(t, "     stopped there: %s\n", "     dort beendet: %s\n")
-                       : say(t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
+               started ? say(t, PL_BOTH("     stopped there: %s\n"))
+                       : say(t, PL_BOTH("  not simulated: %s\n")),
                m->run_message);
   if (m->run != PLEUEL_INTERRUPTED || m->state == NULL) return;
   if (m->kept == PL_KEPT_FAILED)
-    pl_text_addf(t->out,
-                 say(t, "     its state could not be kept in %s: %s\n",
-                     "     ihr Zustand ließ sich nicht in %s aufbewahren: %s\n"),
-                 m->state, m->kept_why);
+    pl_text_addf(t->out, say(t, PL_BOTH("     its state could not be kept in %s: %s\n")), m->state,
+                 m->kept_why);
   if (m->kept != PL_KEPT_YES) return;
   if (m->resume_command)
-    pl_text_addf(t->out, say(t, "     to go on:  %s\n", "     weiter geht es mit:  %s\n"),
-                 m->resume_command);
-  else
-    pl_text_addf(
-        t->out, say(t, "     its state is kept in %s\n", "     ihr Zustand ist in %s aufbewahrt\n"),
-        m->state);
+    pl_text_addf(t->out, say(t, PL_BOTH("     to go on:  %s\n")), m->resume_command);
+  else pl_text_addf(t->out, say(t, PL_BOTH("     its state is kept in %s\n")), m->state);
 }
 
 // Columns of multipliers that hold no number for some time: redundant constraints, or more contacts
@@ -218,11 +202,9 @@ static void tell_undetermined(pl_teller* t) {
     if (*c == ',' && n++ >= SHOWN) more++;
     if (more == 0) end = c + 1;
   }
-  pl_text_addf(t->out,
-               say(t, "     several forces fit, so some are not determined: %.*s",
-                   "     mehrere Kräfte passen, daher nicht bestimmt: %.*s"),
+  pl_text_addf(t->out, say(t, PL_BOTH("     several forces fit, so some are not determined: %.*s")),
                (int)(end - list), list);
-  if (more > 0) pl_text_addf(t->out, say(t, " and %d more", " und %d weitere"), more);
+  if (more > 0) pl_text_addf(t->out, say(t, PL_BOTH(" and %d more")), more);
   pl_text_add(t->out, "\n");
 }
 
@@ -232,22 +214,20 @@ void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
   const pl_stats* s = &m->result->stats;
   if (!isnan(m->resumed_at)) {
     const char* unit = m->model->uses_units ? " s" : "";
-    pl_text_addf(out, say(&t, "     went on from t = %s%s\n", "     fortgesetzt von t = %s%s an\n"),
+    pl_text_addf(out, say(&t, PL_BOTH("     went on from t = %s%s\n")),
                  number(&t, m->resumed_at, DIGITS), unit);
   }
   if (!s->compiled) {
-    pl_text_addf(out, say(&t, "     %ld steps, interpreted", "     %ld Schritte, interpretiert"),
-                 s->steps);
+    pl_text_addf(out, say(&t, PL_BOTH("     %ld steps, interpreted")), s->steps);
     if (s->why_interpreted) pl_text_addf(out, ": %s", s->why_interpreted);
     pl_text_add(out, "\n");
     return;
   }
   pl_text_addf(
       out,
-      say(&t, "     %ld steps, %ld of them interpreted, the others compiled (%s ms%s)\n",
-          "     %ld Schritte, davon %ld interpretiert, die anderen kompiliert (%s ms%s)\n"),
+      say(&t, PL_BOTH("     %ld steps, %ld of them interpreted, the others compiled (%s ms%s)\n")),
       s->steps, s->steps_interpreted, number(&t, 1e3 * s->compile_s, 2),
-      s->stored ? say(&t, ", from disk", ", von der Platte") : "");
+      s->stored ? say(&t, PL_BOTH(", from disk")) : "");
 }
 
 void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii,
@@ -256,16 +236,14 @@ void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool 
   const pl_result* r = m->result;
   if (!r) {
     if (m->run_message[0])
-      pl_text_addf(out, say(&t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
-                   m->run_message);
+      pl_text_addf(out, say(&t, PL_BOTH("  not simulated: %s\n")), m->run_message);
     return;
   }
   const char* unit = m->model->uses_units ? " s" : "";
   bool started = r->rows.n > 0;
   double end = started ? r->rows.at[r->rows.n - 1][0] : m->recording->t_0;
   if (started) {
-    pl_text_addf(out,
-                 say(&t, "  simulated from t = %s to %s%s\n", "  simuliert von t = %s bis %s%s\n"),
+    pl_text_addf(out, say(&t, PL_BOTH("  simulated from t = %s to %s%s\n")),
                  number(&t, m->recording->t_0, DIGITS), number(&t, end, DIGITS), unit);
     tell_events(&t);
     if (!events_only) tell_accuracy(&t);

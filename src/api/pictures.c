@@ -78,11 +78,12 @@ static const char* event_label(pl_arena* a, const pl_result_event* e, pl_languag
   const char* label = e->label ? e->label : "";
   switch (e->kind) {
     case PL_EV_RELEASE:
-      return pl_format(a, lang == PL_GERMAN ? "%s löst sich" : "%s lets go", label);
+      return pl_format(a, lang == PL_GERMAN ? pl_german("%s lets go") : "%s lets go", label);
     case PL_EV_IMPACT:
-      return pl_format(a, lang == PL_GERMAN ? "Stoß auf %s" : "impact on %s", label);
+      return pl_format(a, lang == PL_GERMAN ? pl_german("impact on %s") : "impact on %s", label);
     case PL_EV_CONTACT:
-      return pl_format(a, lang == PL_GERMAN ? "Kontakt mit %s" : "contact with %s", label);
+      return pl_format(a, lang == PL_GERMAN ? pl_german("contact with %s") : "contact with %s",
+                       label);
     default: return label;
   }
 }

@@ -320,14 +320,12 @@ static void tell_inelastic(pleuel_model* m) {
     if (told) continue;
     pl_diagnostic* d = pl_report(
         &m->diagnostics, PL_N068, c->span,
-        pl_format(m->arena,
-                  "%s has no restitution: its impact at t = %.6g s was taken as inelastic",
-                  e->label, e->t),
-        pl_format(m->arena, "%s hat keine Stoßzahl: der Stoß bei t = %.6g s gilt als unelastisch",
-                  e->label, e->t));
+        PL_BOTH_FORMAT(m->arena,
+                       "%s has no restitution: its impact at t = %.6g s was taken as inelastic",
+                       e->label, e->t));
     pl_report_fix(
-        d, pl_format(m->arena, "give the law of the impact: restitution 0 on %s", e->label),
-        pl_format(m->arena, "das Stoßgesetz angeben: restitution 0 on %s", e->label), NULL);
+        d, PL_BOTH_FORMAT(m->arena, "give the law of the impact: restitution 0 on %s", e->label),
+        NULL);
   }
   if (m->diagnostics.list.n > before) pl_diagnostics_sort(&m->diagnostics);
 }

@@ -50,13 +50,10 @@ static void report_violated(pleuel_model* m) {
   pl_span span = r->move_coordinate >= 0 ? init_span(m, r->move_coordinate, r->move_velocity)
                                          : (pl_span){0};
   if (!span.source && c) span = c->span;
-  const char* en = r->constraint_velocity ? "the start velocity violates %s"
-                                          : "the start violates %s";
-  const char* de = r->constraint_velocity ? "die Startgeschwindigkeit verletzt %s"
-                                          : "der Start verletzt %s";
+  const char* words = r->constraint_velocity ? PL_KEY("the start velocity violates %s")
+                                             : PL_KEY("the start violates %s");
   pl_diagnostic* d = pl_report(&m->diagnostics, PL_E041, span,
-                               pl_format(m->arena, en, constraint->name),
-                               pl_format(m->arena, de, constraint->name));
+                               PL_BOTH_FORMAT(m->arena, words, constraint->name));
   if (r->move_coordinate < 0) return;
   const pl_coordinate* q = &s->coordinates[r->move_coordinate];
   const char* name = r->move_velocity ? q->v_name : q->name;
@@ -66,12 +63,9 @@ static void report_violated(pleuel_model* m) {
   const char* number = typed(m->arena, r->move_to);
   pl_report_fix(
       d,
-      pl_format(m->arena,
-                "%s = %s%s%s would fit. Change it, or remove it from init and let it follow", name,
-                number, blank, unit),
-      pl_format(m->arena,
-                "%s = %s%s%s würde passen. Ändern, oder aus init entfernen und folgen lassen", name,
-                number, blank, unit),
+      PL_BOTH_FORMAT(m->arena,
+                     "%s = %s%s%s would fit. Change it, or remove it from init and let it follow",
+                     name, number, blank, unit),
       NULL);
 }
 
@@ -146,15 +140,12 @@ static void report_several(pleuel_model* m) {
   condition_between(m, r->candidates, r->candidates + m->recording->setup.n_q, &left, &right);
   pl_diagnostic* d = pl_report(
       &m->diagnostics, PL_E043, place_of_start(m),
-      pl_format(m->arena, "%d solutions of the constraints fit the start; choose one",
-                r->n_candidates),
-      pl_format(m->arena, "%d Lösungen der Zwangsbedingungen passen zum Start; eine ist zu wählen",
-                r->n_candidates));
-  pl_report_fix(
-      d, pl_format(m->arena, "add  branch %s < %s   or   branch %s > %s", left, right, left, right),
-      pl_format(m->arena, "branch %s < %s   oder   branch %s > %s   hinzufügen", left, right, left,
-                right),
-      NULL);
+      PL_BOTH_FORMAT(m->arena, "%d solutions of the constraints fit the start; choose one",
+                     r->n_candidates));
+  pl_report_fix(d,
+                PL_BOTH_FORMAT(m->arena, "add  branch %s < %s   or   branch %s > %s", left, right,
+                               left, right),
+                NULL);
 }
 
 // The solution nearest to the given numbers was taken: which one it is, and how to have another.
@@ -176,16 +167,12 @@ static void report_taken(pleuel_model* m) {
   const char* at = pl_text_string(&values);
   pl_diagnostic* d = pl_report(
       &m->diagnostics, PL_N073, place_of_start(m),
-      pl_format(m->arena,
-                "%d solutions of the constraints fit the start; the nearest one is taken: %s",
-                r->n_candidates, at),
-      pl_format(m->arena,
-                "%d Lösungen der Zwangsbedingungen passen zum Start; die nächste wird genommen: %s",
-                r->n_candidates, at));
+      PL_BOTH_FORMAT(m->arena,
+                     "%d solutions of the constraints fit the start; the nearest one is taken: %s",
+                     r->n_candidates, at));
   const char* own = pl_format(m->arena, "branch %s %s %s", left, greater ? ">" : "<", right);
   const char* opposite = pl_format(m->arena, "branch %s %s %s", left, greater ? "<" : ">", right);
-  pl_report_fix(d, pl_format(m->arena, "%s  keeps it, %s  takes another one", own, opposite),
-                pl_format(m->arena, "%s  hält das fest, %s  nimmt eine andere", own, opposite),
+  pl_report_fix(d, PL_BOTH_FORMAT(m->arena, "%s  keeps it, %s  takes another one", own, opposite),
                 NULL);
 }
 

@@ -201,7 +201,7 @@ static void plot_energies(pl_views* v, const pl_model* m) {
     int column = pl_result_find(v->result, name[i]);
     if (column < 0 || (i < 2 && !moves(v->result, column)) || (i == 2 && !plot)) continue;
     if (!plot) plot = new_plot(v);
-    plot->title = v->lang == PL_GERMAN ? "Energien" : "Energies";
+    plot->title = v->lang == PL_GERMAN ? pl_german("Energies") : "Energies";
     add_curve(
         v, plot,
         (pl_html_curve){name[i], unicode_unit(v->arena, v->result->columns[column].unit), column});

@@ -285,10 +285,9 @@ static bool complain(pl_geometry* g, pl_span span, const char* en, const char* d
 }
 
 static bool no_place(pl_geometry* g, const pl_friction* f) {
-  return complain(g, f->span, "the constraint %s does not say where on the body the friction acts",
-                  "die Zwangsbedingung %s sagt nicht, wo am Körper die Reibung angreift",
-                  "say where: friction ..., at (x, y) on %s",
-                  "angeben, wo: friction ..., at (x, y) on %s");
+  return complain(g, f->span,
+                  PL_BOTH("the constraint %s does not say where on the body the friction acts"),
+                  PL_BOTH("say where: friction ..., at (x, y) on %s"));
 }
 
 // The arm of a point fixed in the body, in the sense in which its angle turns it: r = r_t t + r_n n
@@ -528,18 +527,16 @@ bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_fricti
     }
   }
   if (attitude_matters(g))
-    return complain(g, f->span,
-                    "%s depends on the attitude of a body in space: friction on it is computed for "
-                    "balls, whose contacts do not",
-                    "%s hängt von der Lage eines Körpers im Raum ab: Reibung an ihm wird für "
-                    "Kugeln berechnet, deren Kontakte das nicht tun",
-                    NULL, NULL);
-  return complain(g, f->span,
-                  "%s presses no two things together: it is no contact of a mass or body with a "
-                  "surface or with another one",
-                  "%s presst nicht zwei Dinge aufeinander: kein Kontakt einer Masse oder eines "
-                  "Körpers mit einer Fläche oder einem anderen",
-                  NULL, NULL);
+    return complain(
+        g, f->span,
+        PL_BOTH("%s depends on the attitude of a body in space: friction on it is computed for "
+                "balls, whose contacts do not"),
+        NULL, NULL);
+  return complain(
+      g, f->span,
+      PL_BOTH("%s presses no two things together: it is no contact of a mass or body with a "
+              "surface or with another one"),
+      NULL, NULL);
 }
 
 // --------------------------------------------------------------------------------- size of a force

@@ -38,10 +38,8 @@ static void tell_place(pl_recorder* r, const pl_friction* f, const pl_contact_to
   const char* y = pl_expr_text(r->arena, r->pool, t->place[1]);
   pl_diagnostic* d = pl_report(
       r->job->diagnostics, PL_N069, f->span,
-      pl_format(r->arena, "friction on %s acts at (%s, %s)", f->label, x, y),
-      pl_format(r->arena, "die Reibung auf %s greift an in (%s, %s)", f->label, x, y));
-  pl_report_fix(d, "another place is written: friction ..., at (x, y) on ...",
-                "ein anderer Ort: friction ..., at (x, y) on ...", NULL);
+      PL_BOTH_FORMAT(r->arena, "friction on %s acts at (%s, %s)", f->label, x, y));
+  pl_report_fix(d, PL_BOTH("another place is written: friction ..., at (x, y) on ..."), NULL);
 }
 
 static pleuel_status add_source(pl_recorder* r, pl_record_group* g, int i, const pl_friction* f) {
@@ -50,10 +48,9 @@ static pleuel_status add_source(pl_recorder* r, pl_record_group* g, int i, const
   pl_contact_touch t;
   if (!pl_contact_geometry(r, c, f, &t)) return PLEUEL_MODEL_ERROR;
   if (t.n < 2) {
-    pl_report(
-        r->job->diagnostics, PL_E066, f->span,
-        pl_format(r->arena, "there is no direction along which anything slides on %s", f->label),
-        pl_format(r->arena, "auf %s gibt es keine Richtung, in der etwas gleitet", f->label));
+    pl_report(r->job->diagnostics, PL_E066, f->span,
+              PL_BOTH_FORMAT(r->arena, "there is no direction along which anything slides on %s",
+                             f->label));
     return PLEUEL_MODEL_ERROR;
   }
   pl_friction_source* s = PL_NEW(r->arena, pl_friction_source);

@@ -15,6 +15,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "messages/messages.h"
 #include "pleuel.h"
 
 // -------------------------------------------------------------------------------- answers in three
@@ -165,11 +166,11 @@ const char* pl_source_line(pl_arena* a, const pl_source* s, int line);
 typedef enum pl_language { PL_ENGLISH = 0, PL_GERMAN = 1 } pl_language;
 
 // ------------------------------------------------------------------------------------- diagnostics
-// Codes live in base/diagnostics.def, one page each in docs/diagnostics. E... error, W... warning,
+// Codes live in messages/diagnostics.def, one page each in docs/diagnostics. E... error, W... warning,
 // N... note.
 typedef enum pl_code {
 #define PL_DIAGNOSTIC(code, title_en, title_de) PL_##code,
-#include "diagnostics.def"
+#include "messages/diagnostics.def"
 #undef PL_DIAGNOSTIC
   PL_N_CODES
 } pl_code;
@@ -263,7 +264,7 @@ typedef struct pl_job {
 // "...", x);
 pleuel_status pl_fail(pl_job* job, pleuel_status s, const char* fmt, ...)
     __attribute__((format(printf, 3, 4)));
-// pl_in_language gives the sentence of base/sentences.def, or format with %s and the like, in a
+// pl_in_language gives a sentence of src/messages, or format with %s and the like, in a
 // language; itself when it has none.
 const char* pl_in_language(pl_language lang, const char* sentence);
 bool pl_interrupted(const pl_job* job);

@@ -7,13 +7,13 @@
 
 static const char* const names[PL_N_CODES] = {
 #define PL_DIAGNOSTIC(code, en, de) #code,
-#include "base/diagnostics.def"
+#include "messages/diagnostics.def"
 #undef PL_DIAGNOSTIC
 };
 
 static const char* const titles[PL_N_CODES][2] = {
 #define PL_DIAGNOSTIC(code, en, de) {en, de},
-#include "base/diagnostics.def"
+#include "messages/diagnostics.def"
 #undef PL_DIAGNOSTIC
 };
 

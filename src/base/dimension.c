@@ -89,40 +89,40 @@ bool pl_dimension_equal(pl_dimension a, pl_dimension b) {
 typedef struct named {
   int8_t m, kg, s, A;
   const char *unit, *ascii;
-  const char *en, *de;
+  const char* words;
 } named;
 
 // clang-format off
 static const named known[] = {
-  { 0, 0,  0,  0, "1",   "1",   "a pure number",          "eine reine Zahl"},
-  { 1, 0,  0,  0, NULL,  NULL,  "a length",               "eine Länge"},
-  { 2, 0,  0,  0, NULL,  NULL,  "an area",                "eine Fläche"},
-  { 3, 0,  0,  0, NULL,  NULL,  "a volume",               "ein Volumen"},
-  { 0, 1,  0,  0, NULL,  NULL,  "a mass",                 "eine Masse"},
-  { 0, 0,  1,  0, NULL,  NULL,  "a time",                 "eine Zeit"},
-  { 0, 0, -1,  0, NULL,  NULL,  "a frequency",            "eine Frequenz"},
-  { 0, 0, -2,  0, NULL,  NULL,  "an angular acceleration", "eine Winkelbeschleunigung"},
-  { 1, 0, -1,  0, NULL,  NULL,  "a velocity",             "eine Geschwindigkeit"},
-  { 1, 0, -2,  0, NULL,  NULL,  "an acceleration",        "eine Beschleunigung"},
-  { 1, 1, -2,  0, "N",   "N",   "a force",                "eine Kraft"},
-  { 2, 1, -2,  0, "J",   "J",   "an energy",              "eine Energie"},
-  { 2, 1, -3,  0, "W",   "W",   "a power",                "eine Leistung"},
-  {-1, 1, -2,  0, "Pa",  "Pa",  "a pressure",             "ein Druck"},
-  { 0, 1, -2,  0, "N/m", "N/m", "a stiffness",            "eine Federkonstante"},
-  { 1, 1, -1,  0, NULL,  NULL,  "a momentum",             "ein Impuls"},
-  { 2, 1, -1,  0, NULL,  NULL,  "an angular momentum",    "ein Drehimpuls"},
-  { 2, 1,  0,  0, NULL,  NULL,  "a moment of inertia",    "ein Trägheitsmoment"},
-  {-3, 1,  0,  0, NULL,  NULL,  "a density",              "eine Dichte"},
-  {-1, 1,  0,  0, NULL,  NULL,  "a mass per length",      "eine Masse pro Länge"},
-  { 0, 0,  0,  1, NULL,  NULL,  "a current",              "eine Stromstärke"},
-  { 0, 0,  1,  1, "C",   "C",   "a charge",               "eine Ladung"},
-  { 2, 1, -3, -1, "V",   "V",   "a voltage",              "eine Spannung"},
-  { 2, 1, -3, -2, "Ω",   "Ohm", "a resistance",           "ein Widerstand"},
-  {-2,-1,  4,  2, "F",   "F",   "a capacitance",          "eine Kapazität"},
-  { 2, 1, -2, -2, "H",   "H",   "an inductance",          "eine Induktivität"},
-  { 0, 1, -2, -1, "T",   "T",   "a magnetic field",       "ein Magnetfeld"},
-  { 2, 1, -2, -1, "Wb",  "Wb",  "a magnetic flux",        "ein magnetischer Fluss"},
-  { 1, 1, -3, -1, "V/m", "V/m", "an electric field",      "ein elektrisches Feld"},
+  { 0, 0,  0,  0, "1",   "1",   PL_KEY("a pure number")},
+  { 1, 0,  0,  0, NULL,  NULL,  PL_KEY("a length")},
+  { 2, 0,  0,  0, NULL,  NULL,  PL_KEY("an area")},
+  { 3, 0,  0,  0, NULL,  NULL,  PL_KEY("a volume")},
+  { 0, 1,  0,  0, NULL,  NULL,  PL_KEY("a mass")},
+  { 0, 0,  1,  0, NULL,  NULL,  PL_KEY("a time")},
+  { 0, 0, -1,  0, NULL,  NULL,  PL_KEY("a frequency")},
+  { 0, 0, -2,  0, NULL,  NULL,  PL_KEY("an angular acceleration")},
+  { 1, 0, -1,  0, NULL,  NULL,  PL_KEY("a velocity")},
+  { 1, 0, -2,  0, NULL,  NULL,  PL_KEY("an acceleration")},
+  { 1, 1, -2,  0, "N",   "N",   PL_KEY("a force")},
+  { 2, 1, -2,  0, "J",   "J",   PL_KEY("an energy")},
+  { 2, 1, -3,  0, "W",   "W",   PL_KEY("a power")},
+  {-1, 1, -2,  0, "Pa",  "Pa",  PL_KEY("a pressure")},
+  { 0, 1, -2,  0, "N/m", "N/m", PL_KEY("a stiffness")},
+  { 1, 1, -1,  0, NULL,  NULL,  PL_KEY("a momentum")},
+  { 2, 1, -1,  0, NULL,  NULL,  PL_KEY("an angular momentum")},
+  { 2, 1,  0,  0, NULL,  NULL,  PL_KEY("a moment of inertia")},
+  {-3, 1,  0,  0, NULL,  NULL,  PL_KEY("a density")},
+  {-1, 1,  0,  0, NULL,  NULL,  PL_KEY("a mass per length")},
+  { 0, 0,  0,  1, NULL,  NULL,  PL_KEY("a current")},
+  { 0, 0,  1,  1, "C",   "C",   PL_KEY("a charge")},
+  { 2, 1, -3, -1, "V",   "V",   PL_KEY("a voltage")},
+  { 2, 1, -3, -2, "Ω",   "Ohm", PL_KEY("a resistance")},
+  {-2,-1,  4,  2, "F",   "F",   PL_KEY("a capacitance")},
+  { 2, 1, -2, -2, "H",   "H",   PL_KEY("an inductance")},
+  { 0, 1, -2, -1, "T",   "T",   PL_KEY("a magnetic field")},
+  { 2, 1, -2, -1, "Wb",  "Wb",  PL_KEY("a magnetic flux")},
+  { 1, 1, -3, -1, "V/m", "V/m", PL_KEY("an electric field")},
 };
 // clang-format on
 
@@ -176,7 +176,7 @@ const char* pl_dimension_unit(pl_arena* a, pl_dimension d, bool ascii) {
 
 const char* pl_dimension_words(pl_arena* a, pl_dimension d, pl_language lang) {
   const named* k = find_named(d);
-  if (k != NULL) return lang == PL_GERMAN ? k->de : k->en;
+  if (k != NULL) return pl_in_language(lang, k->words);
   const char* unit = pl_dimension_unit(a, d, false);
-  return pl_format(a, lang == PL_GERMAN ? "eine Größe in %s" : "a quantity in %s", unit);
+  return pl_format(a, lang == PL_GERMAN ? pl_german("a quantity in %s") : "a quantity in %s", unit);
 }

@@ -22,15 +22,7 @@ const char* pleuel_status_name(pleuel_status s) {
 }
 
 const char* pl_in_language(pl_language lang, const char* sentence) {
-  static const char* const list[][2] = {
-#define PL_SENTENCE(english, german) {english, german},
-#include "base/sentences.def"
-#undef PL_SENTENCE
-  };
-  for (size_t i = 0; lang == PL_GERMAN && i < sizeof list / sizeof *list; i++) {
-    if (strcmp(list[i][0], sentence) == 0) return list[i][1];
-  }
-  return sentence;
+  return lang == PL_GERMAN ? pl_german(sentence) : sentence;
 }
 
 pleuel_status pl_fail(pl_job* job, pleuel_status s, const char* fmt, ...) {

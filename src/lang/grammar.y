@@ -416,7 +416,7 @@ static void pl_yyerror(pl_bytes* at, pl_parse* p, const char* message) {
   (void)message;
   const pl_token* t = &p->tokens->list.at[p->at];
   if (!p->said) {
-    pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end}, "this is nested too deeply", "das ist zu tief verschachtelt");
+    pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end}, PL_BOTH("this is nested too deeply"));
   }
   p->said = true;
 }

@@ -44,7 +44,7 @@ bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled*
 const char* pl_spell_unicode(pl_arena* a, const char* name);
 
 // What a code point was probably meant to be: ASCII replacement and what it is called, or NULL.
-const char* pl_look_alike(uint32_t code_point, const char* what[2]);
+const char* pl_look_alike(uint32_t code_point, const char** what);
 
 // ------------------------------------------------------------------------------------------- words
 int pl_word_statement(const char* s);  // token of a statement keyword, 0 if it is none

@@ -55,12 +55,12 @@ static void complain_encoding(lexer* x, const char* at, const char* end) {
   x->said_encoding = true;
   pl_span span = {x->source, offset(x, at), offset(x, end)};
   if (*at == 0) {
-    pl_diagnostic* m = pl_complain(x->job, PL_E009, span, "a NUL byte in the text", "ein NUL-Byte im Text");
-    pl_suggest(x->job, m, "", "remove it", "entfernen");
+    pl_diagnostic* m = pl_complain(x->job, PL_E009, span, PL_BOTH("a NUL byte in the text"));
+    pl_suggest(x->job, m, "", PL_BOTH("remove it"));
     return;
   }
-  pl_diagnostic* m = pl_complain(x->job, PL_E009, span, "byte 0x%02X is not UTF-8", "Byte 0x%02X ist kein UTF-8", (unsigned char)*at);
-  pl_suggest(x->job, m, NULL, "save the file as UTF-8", "die Datei als UTF-8 speichern");
+  pl_diagnostic* m = pl_complain(x->job, PL_E009, span, PL_BOTH("byte 0x%02X is not UTF-8"), (unsigned char)*at);
+  pl_suggest(x->job, m, NULL, PL_BOTH("save the file as UTF-8"));
 }
 
 // Comments, texts and units are taken as they are, as long as they are text.
@@ -89,8 +89,8 @@ static void lex_number(lexer* x, const char* cursor) {
   t->text = "1";
   t->kind = PL_TOKEN_WRONG;
   pl_diagnostic* m = pl_complain(x->job, PL_E007, span_to(x, cursor),
-    "this number has more than %d digits", "diese Zahl hat mehr als %d Stellen", MAX_DIGITS);
-  pl_because(x->job, m, "numbers are kept exactly", "Zahlen werden exakt gespeichert");
+    PL_BOTH("this number has more than %d digits"), MAX_DIGITS);
+  pl_because(x->job, m, PL_BOTH("numbers are kept exactly"));
   emit(x, TOK_NUMBER, cursor)->text = "1";
 }
 
@@ -102,16 +102,15 @@ static void lex_name(lexer* x, const char* cursor) {
     uint32_t c = 0;
     int n = pl_utf8_decode(at, x->end, &c);
     pl_span span = {x->source, offset(x, at), offset(x, at) + (uint32_t)(n ? n : 1)};
-    const char* what[2];
-    const char* meant = pl_look_alike(c, what);
-    pl_diagnostic* m = pl_complain(x->job, PL_E002, span, "U+%04X has no place in a name", "U+%04X gehört nicht in einen Namen", c);
-    if (meant) pl_suggest(x->job, m, meant, "write %s", "schreibe %s", meant);
+    const char* what;
+    const char* meant = pl_look_alike(c, &what);
+    pl_diagnostic* m = pl_complain(x->job, PL_E002, span, PL_BOTH("U+%04X has no place in a name"), c);
+    if (meant) pl_suggest(x->job, m, meant, PL_BOTH("write %s"), meant);
     emit(x, PL_TOKEN_WRONG, cursor);
     s = (pl_spelled){.key = pl_intern(x->names, "?"), .shown = "?", .raw = "?"};
   }
   if (s.dots > 2) {
-    pl_complain(x->job, PL_E001, span_to(x, cursor), "only first and second derivatives can be written",
-                "nur erste und zweite Ableitungen lassen sich schreiben");
+    pl_complain(x->job, PL_E001, span_to(x, cursor), PL_BOTH("only first and second derivatives can be written"));
     emit(x, PL_TOKEN_WRONG, cursor);
     s.dots = 2;
   }
@@ -131,15 +130,13 @@ static void lex_primes(lexer* x, const char* cursor) {
   const pl_token* before = previous(x);
   bool fits = before && before->end == offset(x, x->token) && (previous_is_operand(x, true) || before->kind == TOK_SUPER);
   if (!fits) {
-    pl_complain(x->job, PL_E002, span_to(x, cursor), "a prime must follow a name directly",
-                "ein Strich muss direkt hinter einem Namen stehen");
+    pl_complain(x->job, PL_E002, span_to(x, cursor), PL_BOTH("a prime must follow a name directly"));
     emit(x, PL_TOKEN_WRONG, cursor);
     return;
   }
   if (n > 2) {
-    pl_diagnostic* m = pl_complain(x->job, PL_E001, span_to(x, cursor), "only first and second derivatives can be written",
-                                   "nur erste und zweite Ableitungen lassen sich schreiben");
-    pl_suggest(x->job, m, NULL, "write dt(x'')", "schreibe dt(x'')");
+    pl_diagnostic* m = pl_complain(x->job, PL_E001, span_to(x, cursor), PL_BOTH("only first and second derivatives can be written"));
+    pl_suggest(x->job, m, NULL, PL_BOTH("write dt(x'')"));
     emit(x, PL_TOKEN_WRONG, cursor);
     n = 2;
   }
@@ -165,10 +162,10 @@ static const char* lex_unit(lexer* x, const char* cursor) {
   while (close < x->end && *close != ']' && *close != '\n' && *close != '#' && *close != '[') close++;
   if (close >= x->end || *close != ']') {
     while (close > cursor && (close[-1] == ' ' || close[-1] == '\r' || close[-1] == '\t')) close--;
-    pl_diagnostic* m = pl_complain(x->job, PL_E008, span_to(x, cursor), "this bracket is not closed", "diese Klammer wird nicht geschlossen");
+    pl_diagnostic* m = pl_complain(x->job, PL_E008, span_to(x, cursor), PL_BOTH("this bracket is not closed"));
     const char* comma = memchr(cursor, ',', (size_t)(close - cursor));
     if (comma) close = comma;
-    pl_suggest(x->job, m, NULL, "write [%s]", "schreibe [%s]", piece(x, cursor, close));
+    pl_suggest(x->job, m, NULL, PL_BOTH("write [%s]"), piece(x, cursor, close));
     emit(x, PL_TOKEN_WRONG, cursor);
     emit(x, TOK_UNIT, close)->text = piece(x, cursor, close);
     return close;
@@ -182,8 +179,8 @@ static const char* lex_unit(lexer* x, const char* cursor) {
 static const char* lex_quote(lexer* x, const char* cursor) {
   if (previous_is_operand(x, true)) {
     pl_span span = span_to(x, cursor);
-    pl_diagnostic* m = pl_complain(x->job, PL_E005, span, "a quotation mark after a name", "ein Anführungszeichen hinter einem Namen");
-    pl_suggest(x->job, m, "''", "did you mean '' (two primes)?", "war '' gemeint (zwei Striche)?");
+    pl_diagnostic* m = pl_complain(x->job, PL_E005, span, PL_BOTH("a quotation mark after a name"));
+    pl_suggest(x->job, m, "''", PL_BOTH("did you mean '' (two primes)?"));
     emit(x, PL_TOKEN_WRONG, cursor);
     emit(x, TOK_PRIMES, cursor)->number = 2;
     return cursor;
@@ -195,8 +192,8 @@ static const char* lex_quote(lexer* x, const char* cursor) {
     emit(x, TOK_TEXT, close + 1)->text = piece(x, cursor, close);
     return close + 1;
   }
-  pl_diagnostic* m = pl_complain(x->job, PL_E008, span_to(x, cursor), "this quotation mark is not closed", "dieses Anführungszeichen wird nicht geschlossen");
-  pl_suggest(x->job, m, NULL, "add \" at the end of the text", "am Ende des Textes \" ergänzen");
+  pl_diagnostic* m = pl_complain(x->job, PL_E008, span_to(x, cursor), PL_BOTH("this quotation mark is not closed"));
+  pl_suggest(x->job, m, NULL, PL_BOTH("add \" at the end of the text"));
   emit(x, PL_TOKEN_WRONG, cursor);
   emit(x, TOK_TEXT, close)->text = piece(x, cursor, close);
   return close;
@@ -205,8 +202,8 @@ static const char* lex_quote(lexer* x, const char* cursor) {
 // A spelling of another language: say so, go on with ours.
 static void lex_instead(lexer* x, const char* cursor, int kind, const char* ours) {
   const char* theirs = piece(x, x->token, cursor);
-  pl_diagnostic* m = pl_complain(x->job, PL_E001, span_to(x, cursor), "%s is not a sign of this language", "%s ist kein Zeichen dieser Sprache", theirs);
-  pl_suggest(x->job, m, ours, "write %s", "schreibe %s", ours);
+  pl_diagnostic* m = pl_complain(x->job, PL_E001, span_to(x, cursor), PL_BOTH("%s is not a sign of this language"), theirs);
+  pl_suggest(x->job, m, ours, PL_BOTH("write %s"), ours);
   emit(x, PL_TOKEN_WRONG, cursor);
   emit(x, kind, cursor);
 }
@@ -228,38 +225,38 @@ static const char* lex_wrong(lexer* x, const char* cursor, uint32_t c) {
     return cursor;
   }
   x->wrong_before = c;
-  const char* what[2];
-  const char* meant = pl_look_alike(c, what);
+  const char* what;
+  const char* meant = pl_look_alike(c, &what);
   const char* shown = piece(x, x->token, cursor);
   pl_span span = span_to(x, cursor);
   pl_diagnostic* m;
   if (c < 0x20 || c == 0x7f) {
-    m = pl_complain(x->job, PL_E002, span, "control character U+%04X", "Steuerzeichen U+%04X", c);
-  } else if (meant && *meant && strcmp(what[0], "a Cyrillic letter") != 0) {
-    m = pl_complain(x->job, PL_E002, span, "%1$s is %2$s%3$.0s", "%1$s ist %2$.0s%3$s", shown, what[0], what[1]);
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("control character U+%04X"), c);
+  } else if (meant && *meant && strcmp(what, "a Cyrillic letter") != 0) {
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("%1$s is %2$s%3$.0s"), shown, what, pl_german(what));
   } else if (meant) {
-    m = pl_complain(x->job, PL_E002, span, "U+%1$04X is %2$s%3$.0s", "U+%1$04X ist %2$.0s%3$s", c, what[0], what[1]);
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("U+%1$04X is %2$s%3$.0s"), c, what, pl_german(what));
   } else if (c == ';' && x->n_semicolons > 0) {
     x->n_semicolons++;
     emit(x, PL_TOKEN_WRONG, cursor);
     return cursor;
   } else if (c == ';') {
-    m = pl_complain(x->job, PL_E002, span, "; does not belong here", "; gehört nicht hierher");
-    pl_because(x->job, m, "one statement per line", "eine Anweisung je Zeile");
-    pl_suggest(x->job, m, "", "remove it, or start a new line", "weglassen oder eine neue Zeile beginnen");
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("; does not belong here"));
+    pl_because(x->job, m, PL_BOTH("one statement per line"));
+    pl_suggest(x->job, m, "", PL_BOTH("remove it, or start a new line"));
     x->n_semicolons = 1;
     x->semicolon = x->job->diagnostics->list.n - 1;
   } else if (c == '.') {
-    m = pl_complain(x->job, PL_E002, span, "a dot that belongs to no number", "ein Punkt, der zu keiner Zahl gehört");
-    pl_suggest(x->job, m, NULL, "write 1.0 or 0.5 in full", "schreibe 1.0 oder 0.5 aus");
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("a dot that belongs to no number"));
+    pl_suggest(x->job, m, NULL, PL_BOTH("write 1.0 or 0.5 in full"));
   } else if (c == '|') {
-    m = pl_complain(x->job, PL_E002, span, "| does not belong here", "| gehört nicht hierher");
-    pl_suggest(x->job, m, NULL, "write abs(x) for the absolute value", "schreibe abs(x) für den Betrag");
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("| does not belong here"));
+    pl_suggest(x->job, m, NULL, PL_BOTH("write abs(x) for the absolute value"));
   } else {
-    m = pl_complain(x->job, PL_E002, span, "%s does not belong here", "%s gehört nicht hierher", shown);
+    m = pl_complain(x->job, PL_E002, span, PL_BOTH("%s does not belong here"), shown);
   }
-  if (meant && *meant) pl_suggest(x->job, m, meant, "write %s", "schreibe %s", meant);
-  if (meant && !*meant) pl_suggest(x->job, m, "", "remove it", "entfernen");
+  if (meant && *meant) pl_suggest(x->job, m, meant, PL_BOTH("write %s"), meant);
+  if (meant && !*meant) pl_suggest(x->job, m, "", PL_BOTH("remove it"));
   emit(x, PL_TOKEN_WRONG, cursor);
   int kind = meant ? kind_of_sign(meant) : 0;
   if (kind) emit(x, kind, cursor)->number = 1;
@@ -290,8 +287,8 @@ static const char* lex_dotted(lexer* x, const char* cursor, int dots) {
   const char* close = *cursor == '{' ? memchr(stop, '}', (size_t)(line_end(x, stop) - stop)) : stop;
   const char* name = piece(x, begin, stop);
   const char* ours = pl_format(x->job->arena, "%s%s", name, dots == 2 ? "''" : "'");
-  pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, cursor), "\\%s is a TeX command", "\\%s ist ein TeX-Befehl", dots == 2 ? "ddot" : "dot");
-  pl_suggest(x->job, m, ours, "write %s", "schreibe %s", ours);
+  pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, cursor), PL_BOTH("\\%s is a TeX command"), dots == 2 ? "ddot" : "dot");
+  pl_suggest(x->job, m, ours, PL_BOTH("write %s"), ours);
   emit(x, PL_TOKEN_WRONG, cursor);
   x->token = begin;
   lex_name(x, stop);
@@ -301,8 +298,8 @@ static const char* lex_dotted(lexer* x, const char* cursor, int dots) {
 
 static void lex_command(lexer* x, const char* cursor) {
   const char* name = piece(x, x->token + 1, cursor);
-  pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, cursor), "\\%s is a TeX command", "\\%s ist ein TeX-Befehl", name);
-  pl_suggest(x->job, m, name, "write %s", "schreibe %s", name);
+  pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, cursor), PL_BOTH("\\%s is a TeX command"), name);
+  pl_suggest(x->job, m, name, PL_BOTH("write %s"), name);
   emit(x, PL_TOKEN_WRONG, cursor);
   x->token++;
   lex_name(x, cursor);
@@ -427,7 +424,7 @@ static void count_semicolons(lexer* x) {
   pl_diagnostic* m = &x->job->diagnostics->list.at[x->semicolon];
   int more = x->n_semicolons - 1;
   m->sentence[PL_ENGLISH] = pl_format(x->job->arena, "; does not belong here, and %d more do not", more);
-  m->sentence[PL_GERMAN] = pl_format(x->job->arena, "; gehört nicht hierher, und %d weitere auch nicht", more);
+  m->sentence[PL_GERMAN] = pl_format(x->job->arena, pl_german("; does not belong here, and %d more do not"), more);
 }
 
 void pl_lex(pl_job* job, pl_names* names, const pl_source* source, pl_tokens* out) {

@@ -74,17 +74,15 @@ static void look_for_theta(reading* r, const pl_tokens* tokens) {
 static void complain_theta(reading* r) {
   if (!r->theta || !r->vartheta) return;
   pl_diagnostic* m = pl_complain(r->job, PL_E059, r->vartheta_at,
-                                 "θ and ϑ are two letters, and both are theta in ASCII",
-                                 "θ und ϑ sind zwei Buchstaben, in ASCII beide theta");
+                                 PL_BOTH("θ and ϑ are two letters, and both are theta in ASCII"));
   pl_report_label(r->job->diagnostics, m, r->theta_at, "θ");
-  pl_suggest(r->job, m, NULL, "use one of them throughout", "durchgehend einen davon verwenden");
+  pl_suggest(r->job, m, NULL, PL_BOTH("use one of them throughout"));
 }
 
 static void cannot_include(reading* r, const pl_ast* s, const char* en, const char* de) {
   pl_diagnostic* m = pl_complain(r->job, PL_E010, pl_ast_span(pl_ast_kid(s, 0)), en, de,
                                  pl_ast_kid(s, 0)->text);
-  pl_suggest(r->job, m, NULL, "check the path, which counts from the including file",
-             "den Pfad prüfen; er zählt ab der einbindenden Datei");
+  pl_suggest(r->job, m, NULL, PL_BOTH("check the path, which counts from the including file"));
 }
 
 static void include(reading* r, const pl_ast* s, const pl_source* from) {
@@ -93,16 +91,15 @@ static void include(reading* r, const pl_ast* s, const pl_source* from) {
   if (r->reader && r->reader->read)
     file = r->reader->read(r->reader->user, r->job->arena, pl_ast_kid(s, 0)->text, from);
   if (file == NULL) {
-    cannot_include(r, s, "%s cannot be read", "%s ist nicht lesbar");
+    cannot_include(r, s, PL_BOTH("%s cannot be read"));
     return;
   }
   for (int i = 0; i < r->open.n; i++) {
     if (strcmp(r->open.at[i], file->name) != 0) continue;
-    cannot_include(r, s, "%s includes itself", "%s bindet sich selbst ein");
+    cannot_include(r, s, PL_BOTH("%s includes itself"));
     return;
   }
-  if (r->open.n >= MAX_OPEN)
-    cannot_include(r, s, "%s is included too deeply", "%s ist zu tief eingebunden");
+  if (r->open.n >= MAX_OPEN) cannot_include(r, s, PL_BOTH("%s is included too deeply"));
   else read_file(r, file);
 }
 
@@ -141,13 +138,12 @@ static void declare_rule(pl_lower* l, const pl_ast* s) {
     for (int i = 0; i < l->rules.n; i++)
       twice |= l->rules.at[i].with == with->key && &l->rules.at[i] != same;
     if (taken || twice) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(with), "%s is declared twice",
-                                           "%s ist zweimal vereinbart", with->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(with),
+                                           PL_BOTH("%s is declared twice"), with->shown);
       if (taken && !l->mute)
         pl_report_label(l->job->diagnostics, m, taken->span,
-                        l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-      pl_suggest(l->job, m, NULL, "choose another name, such as %s1",
-                 "einen anderen Namen wählen, etwa %s1", with->shown);
+                        l->job->lang == PL_GERMAN ? pl_german("first here") : "first here");
+      pl_suggest(l->job, m, NULL, PL_BOTH("choose another name, such as %s1"), with->shown);
       with = NULL;
     }
   }
@@ -172,14 +168,13 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
   b->span = pl_span_join(pl_ast_span(name), pl_ast_span(range));
   pl_entity* e = pl_scope_find(l, name->key);
   if (e || pl_scope_local(l, name->key) || strcmp(name->key, "t") == 0) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%s is declared twice",
-                                         "%s ist zweimal vereinbart", name->shown);
-    pl_because(l->job, m, "an index needs a name of its own",
-               "ein Index braucht einen eigenen Namen");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name),
+                                         PL_BOTH("%s is declared twice"), name->shown);
+    pl_because(l->job, m, PL_BOTH("an index needs a name of its own"));
     if (e && !l->mute)
       pl_report_label(l->job->diagnostics, m, e->span,
-                      l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-    pl_suggest(l->job, m, NULL, "choose another index", "einen anderen Index wählen");
+                      l->job->lang == PL_GERMAN ? pl_german("first here") : "first here");
+    pl_suggest(l->job, m, NULL, PL_BOTH("choose another index"));
   }
   pl_symbol old = pl_symbol_find(l->pool, name->key);
   bool reuse = old.id && pl_symbol_get(l->pool, old)->role == PL_R_INDEX;
@@ -189,9 +184,8 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
   b->step = pl_ast_kid(range, 2) ? pl_lower_scalar(l, pl_ast_kid(range, 2)) : pl_poison();
   if (pl_ast_kid(range, 3)) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(range, 3)),
-                                         "an index runs in steps, not by a count",
-                                         "ein Index läuft in Schritten, nicht nach einer Anzahl");
-    pl_suggest(l->job, m, NULL, "write  for i in 1..N", "schreibe  for i in 1..N");
+                                         PL_BOTH("an index runs in steps, not by a count"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write  for i in 1..N"));
   }
   pl_push(l->arena, l->m->blocks, b);
   return b;
@@ -248,10 +242,9 @@ static void walk_block(pl_lower* l, walk* w, const pl_ast* s) {
     } else if (w->first && !inner->broken) {
       const char* word = pl_word_of_statement(inner->token);
       pl_diagnostic* m = pl_lower_complain(l, PL_E027, pl_ast_span(inner),
-                                           "%s does not belong inside for",
-                                           "%s gehört nicht in for", word ? word : "this");
-      pl_suggest(l->job, m, NULL, "move the line out of the block",
-                 "die Zeile aus dem Block herausnehmen");
+                                           PL_BOTH("%s does not belong inside for"),
+                                           word ? word : "this");
+      pl_suggest(l->job, m, NULL, PL_BOTH("move the line out of the block"));
     }
   }
   l->locals.n--;
@@ -350,10 +343,8 @@ static void set_start(pl_lower* l, const pl_setting_node* s) {
   if (role != PL_R_COORD && role != PL_R_VELOCITY) {
     pl_diagnostic* m = pl_lower_complain(
         l, PL_E030, pl_ast_span(s->name),
-        "only parameters, abbreviations and start values can be set",
-        "nur Parameter, Abkürzungen und Startwerte lassen sich setzen");
-    pl_suggest(l->job, m, NULL, "write --set m=2 or --set x=1",
-               "schreibe --set m=2 oder --set x=1");
+        PL_BOTH("only parameters, abbreviations and start values can be set"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write --set m=2 or --set x=1"));
     return;
   }
   for (int i = 0; i < l->m->inits.n; i++) {

@@ -34,16 +34,15 @@ static pl_quantity wrong_count(pl_lower* l, const call* c, const char* usage) {
     if (comma) {
       const char* fixed = pl_format(l->arena, "%s.%s", a->text, b->text);
       pl_diagnostic* m = pl_lower_complain(l, PL_E003, pl_span_join(pl_ast_span(a), pl_ast_span(b)),
-                                           "decimal comma", "Dezimalkomma");
-      pl_suggest(l->job, m, fixed, "write %s        (Dezimalpunkt statt Komma)",
-                 "schreibe %s        (Dezimalpunkt statt Komma)", fixed);
+                                           PL_BOTH("decimal comma"));
+      pl_suggest(l->job, m, fixed, PL_BOTH("write %s        (Dezimalpunkt statt Komma)"), fixed);
       return pl_quantity_bad();
     }
   }
-  pl_diagnostic* m = pl_lower_complain(
-      l, PL_E017, span_of(c), "wrong number of arguments for %s: %d",
-      "falsche Zahl von Argumenten für %s: %d", c->name->shown, c->n);
-  pl_suggest(l->job, m, NULL, "write %s", "schreibe %s", usage);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, span_of(c),
+                                       PL_BOTH("wrong number of arguments for %s: %d"),
+                                       c->name->shown, c->n);
+  pl_suggest(l->job, m, NULL, PL_BOTH("write %s"), usage);
   return pl_quantity_bad();
 }
 
@@ -57,8 +56,7 @@ static bool scalar_args(pl_lower* l, const call* c, pl_expr* out) {
 }
 
 static pl_quantity checked(pl_lower* l, const call* c, pl_expr e) {
-  if (pl_is_poison(e))
-    pl_lower_complain(l, PL_E040, span_of(c), "this has no value", "das hat keinen Wert");
+  if (pl_is_poison(e)) pl_lower_complain(l, PL_E040, span_of(c), PL_BOTH("this has no value"));
   return pl_quantity_of(e);
 }
 
@@ -80,9 +78,8 @@ static void hint_log(pl_lower* l, const pl_ast* name) {
   if (strcmp(name->key, "log") != 0 || l->log_said) return;
   l->log_said = true;
   pl_diagnostic* m = pl_lower_complain(l, PL_N072, pl_ast_span(name),
-                                       "log is the natural logarithm",
-                                       "log ist der natürliche Logarithmus");
-  pl_suggest(l->job, m, "ln", "write ln to say so", "schreibe ln, um das zu sagen");
+                                       PL_BOTH("log is the natural logarithm"));
+  pl_suggest(l->job, m, "ln", PL_BOTH("write ln to say so"));
 }
 
 // sin 30: an angle without its sign for degrees, several turns if it is one in radians.
@@ -92,10 +89,8 @@ static void hint_degrees(pl_lower* l, const pl_ast* name, pl_expr x, const pl_as
   long n = 0;
   if (!trig || pl_is_poison(x) || !pl_is_int(l->pool, x, &n) || (n < 7 && n > -7)) return;
   pl_diagnostic* m = pl_lower_complain(l, PL_N021, pl_ast_span(where),
-                                       "%s of %ld is taken in radians",
-                                       "%s von %ld gilt im Bogenmaß", name->shown, n);
-  pl_suggest(l->job, m, NULL, "write %s(%ld°) if degrees are meant",
-             "schreibe %s(%ld°), falls Grad gemeint sind", name->shown, n);
+                                       PL_BOTH("%s of %ld is taken in radians"), name->shown, n);
+  pl_suggest(l->job, m, NULL, PL_BOTH("write %s(%ld°) if degrees are meant"), name->shown, n);
 }
 
 static bool is_elementary_of_one(const char* key) {
@@ -123,10 +118,9 @@ static bool vector_args(pl_lower* l, const call* c, pl_quantity* v) {
     if (!v[i].force_of && pl_quantity_is_bad(&v[i])) fine = false;
     else if (v[i].n == 0 && !v[i].force_of) {
       pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, i)),
-                                           "%s takes vectors, this is a number",
-                                           "%s nimmt Vektoren, das ist eine Zahl", c->name->shown);
-      pl_suggest(l->job, m, NULL, "write a vector as (a, b) or pos(A)",
-                 "einen Vektor schreibt man (a, b) oder pos(A)");
+                                           PL_BOTH("%s takes vectors, this is a number"),
+                                           c->name->shown);
+      pl_suggest(l->job, m, NULL, PL_BOTH("write a vector as (a, b) or pos(A)"));
       fine = false;
     }
   }
@@ -153,13 +147,12 @@ static bool two_vectors(pl_lower* l, const call* c, pl_quantity* v) {
   if (!vector_args(l, c, v)) return false;
   if (v[0].force_of || v[1].force_of) {
     pl_lower_complain(l, PL_E017, span_of(c),
-                      "of a force only its size can be used here: norm(force(...))",
-                      "von einer Kraft lässt sich hier nur die Größe verwenden: norm(force(...))");
+                      PL_BOTH("of a force only its size can be used here: norm(force(...))"));
     return false;
   }
   if (v[0].n == v[1].n) return true;
-  pl_lower_complain(l, PL_E017, span_of(c), "the vectors have %d and %d components",
-                    "die Vektoren haben %d und %d Komponenten", v[0].n, v[1].n);
+  pl_lower_complain(l, PL_E017, span_of(c), PL_BOTH("the vectors have %d and %d components"),
+                    v[0].n, v[1].n);
   return false;
 }
 
@@ -211,8 +204,7 @@ static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
   pl_point at;
   if (label == NULL) {
     pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 0)),
-                      "%s takes the label of a mass, body or point",
-                      "%s nimmt die Marke einer Masse, eines Körpers oder Punktes", c->name->shown);
+                      PL_BOTH("%s takes the label of a mass, body or point"), c->name->shown);
     return pl_quantity_bad();
   }
   if (!pl_lower_label_point(l, label, index, &at, NULL)) return pl_quantity_bad();
@@ -239,10 +231,8 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
   pl_kind kind = pl_kind_of(l->pool, x);
   if (kind != PL_SYMBOL && kind != PL_AT) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 1)),
-                                         "diff derives by a name",
-                                         "diff leitet nach einem Namen ab");
-    pl_suggest(l->job, m, NULL, "write diff(f, x), or dt(f) for the time derivative",
-               "schreibe diff(f, x) oder dt(f) für die Zeitableitung");
+                                         PL_BOTH("diff derives by a name"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write diff(f, x), or dt(f) for the time derivative"));
     return pl_quantity_bad();
   }
   for (int i = 0; i < (f.n ? f.n : 1); i++) {
@@ -257,9 +247,7 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
     if (of_motion && !own) {
       pl_lower_complain(
           l, PL_E017, span_of(c),
-          "accelerations and multipliers hang on the motion and cannot be derived here",
-          "Beschleunigungen und Multiplikatoren hängen an der Bewegung und lassen sich hier nicht "
-          "ableiten");
+          PL_BOTH("accelerations and multipliers hang on the motion and cannot be derived here"));
       return pl_quantity_bad();
     }
     f.at[i] = kind == PL_SYMBOL ? pl_diff(l->pool, f.at[i], pl_symbol_of(l->pool, x))
@@ -282,9 +270,8 @@ static pl_quantity call_dt(pl_lower* l, const call* c) {
                  || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
     if (!fixed) f.at[i] = pl_dt(l->pool, f.at[i]);
     if (!fixed && !pl_is_poison(f.at[i])) continue;
-    pl_lower_complain(
-        l, PL_E017, span_of(c), "accelerations and multipliers cannot be derived by time here",
-        "Beschleunigungen und Multiplikatoren lassen sich hier nicht nach der Zeit ableiten");
+    pl_lower_complain(l, PL_E017, span_of(c),
+                      PL_BOTH("accelerations and multipliers cannot be derived by time here"));
     return pl_quantity_bad();
   }
   return f;
@@ -331,18 +318,17 @@ static pl_quantity call_if(pl_lower* l, const call* c) {
     case PL_GE: return checked(l, c, pl_if(l->pool, opposite, b, a));
     default: break;
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, test.span, "if compares with > or <",
-                                       "if vergleicht mit > oder <");
-  pl_suggest(l->job, m, NULL, "write if(a > b, ..., ...)", "schreibe if(a > b, ..., ...)");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, test.span, PL_BOTH("if compares with > or <"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write if(a > b, ..., ...)"));
   return pl_quantity_bad();
 }
 
 // ----------------------------------------------------------------------------------------- results
 static pl_quantity call_result(pl_lower* l, const call* c, pl_result_kind kind) {
   if (!l->results) {
-    pl_lower_complain(
-        l, PL_E057, span_of(c), "%s is a result: it can stand in ask, plot, event and output",
-        "%s ist ein Ergebnis: es kann in ask, plot, event und output stehen", c->name->shown);
+    pl_lower_complain(l, PL_E057, span_of(c),
+                      PL_BOTH("%s is a result: it can stand in ask, plot, event and output"),
+                      c->name->shown);
     return pl_quantity_bad();
   }
   const pl_ast* index = NULL;
@@ -389,8 +375,7 @@ static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
     return wrong_count(l, c, pl_format(l->arena, "%s with fewer arguments", e->shown));
   if (e->state == 1 || l->call_depth > MAX_DEPTH) {
     if (!e->broken)
-      pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself",
-                        "%s führt auf sich selbst zurück", e->shown);
+      pl_lower_complain(l, PL_E018, e->span, PL_BOTH("%s leads back to itself"), e->shown);
     e->broken = true;
     l->wrong++;
     return pl_quantity_bad();
@@ -437,9 +422,9 @@ static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
 pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) {
   call c = {name, group, group ? group->kids.n : 0};
   if (group == NULL) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs an argument",
-                                         "%s braucht ein Argument", name->shown);
-    pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name),
+                                         PL_BOTH("%s needs an argument"), name->shown);
+    pl_suggest(l->job, m, NULL, PL_BOTH("write %s(...)"), name->shown);
     return pl_quantity_bad();
   }
   pl_entity* e = pl_scope_find(l, name->key);
@@ -465,8 +450,7 @@ pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) 
   if (strcmp(name->key, "vel") == 0) return call_place(l, &c, true);
   if (strcmp(name->key, "force") == 0) return call_result(l, &c, PL_RES_FORCE);
   if (strcmp(name->key, "normal") == 0) return call_result(l, &c, PL_RES_NORMAL);
-  pl_lower_complain(l, PL_E017, span_of(&c), "%s belongs to a body in space",
-                    "%s gehört zu einem Körper im Raum", name->shown);
+  pl_lower_complain(l, PL_E017, span_of(&c), PL_BOTH("%s belongs to a body in space"), name->shown);
   return pl_quantity_bad();
 }
 
@@ -475,22 +459,21 @@ pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* name, pl_quantity x, const
   if (pl_quantity_is_bad(&x)) return x;
   hint_log(l, name);
   if (!is_elementary_of_one(name->key) || pl_scope_find(l, name->key)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs brackets",
-                                         "%s braucht Klammern", name->shown);
-    pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name),
+                                         PL_BOTH("%s needs brackets"), name->shown);
+    pl_suggest(l->job, m, NULL, PL_BOTH("write %s(...)"), name->shown);
     return pl_quantity_bad();
   }
   if (x.n) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where),
-                                         "%s takes a number, this is a vector",
-                                         "%s nimmt eine Zahl, das ist ein Vektor", name->shown);
-    if (strcmp(name->key, "abs") == 0)
-      pl_suggest(l->job, m, NULL, "write norm(...)", "schreibe norm(...)");
+                                         PL_BOTH("%s takes a number, this is a vector"),
+                                         name->shown);
+    if (strcmp(name->key, "abs") == 0) pl_suggest(l->job, m, NULL, PL_BOTH("write norm(...)"));
     return pl_quantity_bad();
   }
   hint_degrees(l, name, x.at[0], where);
   pl_expr value = apply_elementary(l, name->key, x.at[0]);
   if (pl_is_poison(value))
-    pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value", "das hat keinen Wert");
+    pl_lower_complain(l, PL_E040, pl_ast_span(where), PL_BOTH("this has no value"));
   return pl_quantity_of(value);
 }

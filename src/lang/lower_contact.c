@@ -12,27 +12,27 @@ static const char* constraint_of(pl_lower* l, const pl_ast* node) {
   const pl_ast* index;
   const pl_ast* name = pl_ast_label(node, &index);
   if (name == NULL) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(node), "the label of a constraint is needed here",
-                      "hier ist die Marke einer Zwangsbedingung nötig");
+    pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                      PL_BOTH("the label of a constraint is needed here"));
     return NULL;
   }
   const pl_rule* rule = pl_scope_rule(l, name->key);
   if (rule == NULL && pl_site_find(l, name->key)) {
     pl_diagnostic* m = pl_lower_complain(
-        l, PL_E017, pl_ast_span(node), "%s is no constraint, but contacts are constraints",
-        "%s ist keine Zwangsbedingung, Kontakte sind aber Zwangsbedingungen", name->shown);
-    pl_suggest(l->job, m, NULL, "write the label of the constraint that keeps %s on its surface",
-               "die Marke der Zwangsbedingung schreiben, die %s auf seiner Fläche hält",
+        l, PL_E017, pl_ast_span(node), PL_BOTH("%s is no constraint, but contacts are constraints"),
+        name->shown);
+    pl_suggest(l->job, m, NULL,
+               PL_BOTH("write the label of the constraint that keeps %s on its surface"),
                name->shown);
     return NULL;
   }
   if (rule == NULL) {
-    pl_scope_unknown_label(l, name, "constraint", "Zwangsbedingung", NULL, 0);
+    pl_scope_unknown_label(l, name, PL_BOTH("constraint"), NULL, 0);
     return NULL;
   }
   if (!rule->family && index) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(node), "%s is not a family, so it takes no index",
-                      "%s ist keine Familie und hat keinen Index", rule->shown);
+    pl_lower_complain(l, PL_E025, pl_ast_span(node),
+                      PL_BOTH("%s is not a family, so it takes no index"), rule->shown);
     return NULL;
   }
   return pl_label_text(l, name, index);
@@ -54,11 +54,12 @@ static bool lower_surface(pl_lower* l, const pl_ast* node, pl_point* out) {
   memcpy(out->at, v.at, sizeof out->at);
   if (out->n == l->m->n_axes) return true;
   pl_diagnostic* m = pl_lower_complain(
-      l, PL_E035, out->span, "the velocity of the surface has %d components, there are %d axes",
-      "die Geschwindigkeit der Fläche hat %d Komponenten, es gibt %d Achsen", out->n, l->m->n_axes);
-  pl_suggest(l->job, m, NULL,
-             l->m->n_axes == 2 ? "write  surface (vx, vy)" : "write  surface (vx, vy, vz)",
-             l->m->n_axes == 2 ? "schreibe  surface (vx, vy)" : "schreibe  surface (vx, vy, vz)");
+      l, PL_E035, out->span,
+      PL_BOTH("the velocity of the surface has %d components, there are %d axes"), out->n,
+      l->m->n_axes);
+  pl_suggest(
+      l->job, m, NULL,
+      PL_BOTH(l->m->n_axes == 2 ? "write  surface (vx, vy)" : "write  surface (vx, vy, vz)"));
   return false;
 }
 

@@ -10,9 +10,8 @@ static void lower_version(pl_lower* l, const pl_ast* s) {
   const pl_ast* number = pl_ast_kid(s, 0);
   if (strcmp(number->text, "1") == 0) return;
   pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(number),
-                                       "there is no language version %s",
-                                       "es gibt keine Sprachversion %s", number->text);
-  pl_suggest(l->job, m, "1", "write  pleuel 1", "schreibe  pleuel 1");
+                                       PL_BOTH("there is no language version %s"), number->text);
+  pl_suggest(l->job, m, "1", PL_BOTH("write  pleuel 1"));
 }
 
 static void lower_language(pl_lower* l, const pl_ast* s) {
@@ -22,9 +21,9 @@ static void lower_language(pl_lower* l, const pl_ast* s) {
   if (strcmp(text, "de") == 0) l->m->lang = PL_GERMAN;
   else if (strcmp(text, "en") == 0) l->m->lang = PL_ENGLISH;
   else {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(word), "there is no language %s",
-                                         "die Sprache %s gibt es nicht", text);
-    pl_suggest(l->job, m, "en", "write  lang en  or  lang de", "schreibe  lang en  oder  lang de");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(word),
+                                         PL_BOTH("there is no language %s"), text);
+    pl_suggest(l->job, m, "en", PL_BOTH("write  lang en  or  lang de"));
   }
 }
 
@@ -32,16 +31,15 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
   static const char* const directions[] = {"right", "left", "up", "down", "out"};
   const pl_ast* list = pl_ast_kid(s, 0);
   if (l->m->n_axes) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s), "the axes are given twice",
-                                         "die Achsen sind zweimal angegeben");
-    pl_suggest(l->job, m, NULL, "remove one of the lines", "eine der Zeilen entfernen");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s),
+                                         PL_BOTH("the axes are given twice"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("remove one of the lines"));
     return;
   }
   for (int i = 0; i < list->kids.n; i++) {
     const pl_ast *axis = list->kids.at[i], *name = pl_ast_kid(axis, 0), *way = pl_ast_kid(axis, 1);
     if (i >= 3) {
-      pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there are at most three axes",
-                        "es gibt höchstens drei Achsen");
+      pl_lower_complain(l, PL_E029, pl_ast_span(axis), PL_BOTH("there are at most three axes"));
       return;
     }
     const char* direction = NULL;
@@ -49,14 +47,13 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
       if (strcmp(directions[k], way->key) == 0) direction = directions[k];
     }
     if (way && !direction) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(way), "%s is not a direction",
-                                           "%s ist keine Richtung", way->shown);
-      pl_suggest(l->job, m, NULL, "directions are right, left, up, down, out",
-                 "Richtungen sind right, left, up, down, out");
+      pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(way),
+                                           PL_BOTH("%s is not a direction"), way->shown);
+      pl_suggest(l->job, m, NULL, PL_BOTH("directions are right, left, up, down, out"));
     }
     if (pl_axis_find(l, name->key) >= 0) {
-      pl_lower_complain(l, PL_E028, pl_ast_span(name), "axis %s is given twice",
-                        "die Achse %s ist zweimal angegeben", name->shown);
+      pl_lower_complain(l, PL_E028, pl_ast_span(name), PL_BOTH("axis %s is given twice"),
+                        name->shown);
       continue;
     }
     l->m->axes[l->m->n_axes++] = (pl_axis){name->shown, name->key, direction, true};
@@ -79,9 +76,9 @@ static void lower_convention(pl_lower* l, const pl_ast* s) {
     if (strcmp(word, "lambda-minus") == 0 || strcmp(word, "λ-minus") == 0)
       l->m->lambda_minus = true;
     else if (strncmp(word, "lambda", 6) == 0 && strcmp(word, "lambda-plus") != 0) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E001, span, "there is no convention %s",
-                                           "die Konvention %s gibt es nicht", word);
-      pl_suggest(l->job, m, "lambda-minus", "write lambda-minus", "schreibe lambda-minus");
+      pl_diagnostic* m = pl_lower_complain(l, PL_E001, span, PL_BOTH("there is no convention %s"),
+                                           word);
+      pl_suggest(l->job, m, "lambda-minus", PL_BOTH("write lambda-minus"));
     }
     // other words are labels for the reader
   }
@@ -93,9 +90,8 @@ static void lower_header(pl_lower* l, const pl_ast* s) {
     case TOK_SYSTEM:
       if (l->m->title) {
         pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s),
-                                             "the system has a title already",
-                                             "das System hat schon einen Titel");
-        pl_suggest(l->job, m, NULL, "remove one of the lines", "eine der Zeilen entfernen");
+                                             PL_BOTH("the system has a title already"));
+        pl_suggest(l->job, m, NULL, PL_BOTH("remove one of the lines"));
       } else l->m->title = pl_ast_kid(s, 0)->text;
       break;
     case TOK_LANG: lower_language(l, s); break;
@@ -123,10 +119,8 @@ static bool only_coordinates_are_families(pl_lower* l, const pl_ast* definition)
   if (range == NULL) return false;
   const pl_ast* name = declared_name(definition);
   pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(pl_ast_kid(definition, 0)),
-                                       "only coordinates can be families",
-                                       "nur Koordinaten können Familien sein");
-  pl_suggest(l->job, m, NULL, "write a function:  let %s(i) = ...",
-             "schreibe eine Funktion:  let %s(i) = ...", name->shown);
+                                       PL_BOTH("only coordinates can be families"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write a function:  let %s(i) = ..."), name->shown);
   return true;
 }
 
@@ -222,10 +216,8 @@ static pl_expr value_with_unit(pl_lower* l, const pl_ast* d, const pl_ast* value
   if (pl_is_poison(e) || !declared || pl_unit_occurs(l->pool, e)) return e;
   if (pl_is_constant(l->pool, e)) return pl_mul(l->pool, e, unit->factor);
   pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(pl_ast_kid(d, 3)),
-                                       "a unit belongs to a number",
-                                       "eine Einheit gehört zu einer Zahl");
-  pl_suggest(l->job, m, NULL, "remove it; the unit follows from the formula",
-             "entfernen; die Einheit folgt aus der Formel");
+                                       PL_BOTH("a unit belongs to a number"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("remove it; the unit follows from the formula"));
   return e;
 }
 
@@ -242,12 +234,11 @@ static void hint_unit(pl_lower* l, const pl_ast* value) {
   size_t at, n;
   const char* near;
   if (!pl_unit_parse(l->pool, name->raw, strlen(name->raw), &unit, &at, &n, &near)) return;
-  pl_diagnostic* m = pl_lower_complain(
-      l, PL_W071, pl_ast_span(value), "%1$s %2$s is read as %1$s times %2$s",
-      "%1$s %2$s wird als %1$s mal %2$s gelesen", number->text, name->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_W071, pl_ast_span(value),
+                                       PL_BOTH("%1$s %2$s is read as %1$s times %2$s"),
+                                       number->text, name->shown);
   pl_suggest(l->job, m, pl_format(l->arena, "%s [%s]", number->text, name->raw),
-             "write %1$s [%2$s] if the unit is meant",
-             "schreibe %1$s [%2$s], falls die Einheit gemeint ist", number->text, name->raw);
+             PL_BOTH("write %1$s [%2$s] if the unit is meant"), number->text, name->raw);
 }
 
 static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
@@ -325,8 +316,7 @@ static void lower_let(pl_lower* l, const pl_ast* d) {
     const pl_ast* a = pl_ast_single(arguments->kids.at[i]);
     if (a == NULL || a->kind != PL_AST_NAME || a->number) {
       pl_lower_complain(l, PL_E017, pl_ast_span(arguments->kids.at[i]),
-                        "an argument of a function is a name",
-                        "ein Argument einer Funktion ist ein Name");
+                        PL_BOTH("an argument of a function is a name"));
       continue;
     }
     pl_symbol_info info = {.name = a->shown,
@@ -386,17 +376,15 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
   l->results = results;
   if (pl_force_label(l, value)) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
-                                         "a number is needed here, not a force",
-                                         "hier ist eine Zahl nötig, keine Kraft");
-    pl_suggest(l->job, m, NULL, "take its size, norm(force(...))",
-               "ihre Größe nehmen, norm(force(...))");
+                                         PL_BOTH("a number is needed here, not a force"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("take its size, norm(force(...))"));
     return;
   }
   for (int i = 0; i < l->m->outputs.n; i++) {
     if (strcmp(l->m->outputs.at[i].name, name->key) != 0) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(name), "output %s is given twice",
-                                         "der Ausgang %s ist zweimal angegeben", name->shown);
-    pl_suggest(l->job, m, NULL, "choose another name", "einen anderen Namen wählen");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(name),
+                                         PL_BOTH("output %s is given twice"), name->shown);
+    pl_suggest(l->job, m, NULL, PL_BOTH("choose another name"));
     return;
   }
   if (!pl_is_poison(value))
@@ -434,12 +422,10 @@ void pl_lower_statement(pl_lower* l, const pl_ast* s) {
     case TOK_ASSUME: each(l, s, lower_assume_one); break;
     case TOK_OUTPUT: lower_output(l, s); break;
     case TOK_INPUT:
-      pl_lower_pending(
-          l, PL_N091, "input", pl_ast_span(s),
-          "inputs are given quantities in formulas and 0 in a motion; a program gives them values "
-          "(pleuel.h)",
-          "Eingänge sind in Formeln gegebene Größen und in einer Bewegung 0; Werte gibt ihnen ein "
-          "Programm (pleuel.h)");
+      pl_lower_pending(l, PL_N091, "input", pl_ast_span(s),
+                       PL_BOTH("inputs are given quantities in formulas and 0 in a motion; a "
+                               "program gives them values "
+                               "(pleuel.h)"));
       for (int i = 0; i < list->kids.n; i++) {
         pl_entity* e = pl_scope_find(l, declared_name(list->kids.at[i])->key);
         if (e && e->definition == list->kids.at[i])

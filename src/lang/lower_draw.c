@@ -40,13 +40,11 @@ static void lower_thing(pl_lower* l, const pl_ast* thing, pl_draw_kind kind) {
   bool known = is_thing(thing->text);
   if (!known && (kind == PL_DRAW_ANIMATE || of || !is_label(l, thing))) {
     if (kind == PL_DRAW_ANIMATE)
-      complain(l, thing, "%s cannot be animated", "%s lässt sich nicht animieren",
-               "write  force of LABEL, weight, trail of LABEL, count N",
-               "schreibe  force of MARKE, weight, trail of MARKE, count N");
+      complain(l, thing, PL_BOTH("%s cannot be animated"),
+               PL_BOTH("write  force of LABEL, weight, trail of LABEL, count N"));
     else
-      complain(l, thing, "there is no %s in the picture", "im Bild gibt es kein %s",
-               "axes, angles, weight, trail, velocity, force of LABEL, or a label",
-               "axes, angles, weight, trail, velocity, force of MARKE oder eine Marke");
+      complain(l, thing, PL_BOTH("there is no %s in the picture"),
+               PL_BOTH("axes, angles, weight, trail, velocity, force of LABEL, or a label"));
     return;
   }
   if (of) look_up(l, thing, of);
@@ -67,9 +65,8 @@ static void lower_line(pl_lower* l, const pl_ast* s, const pl_ast* word) {
     if (strcmp(kinds[i], word->text) == 0) d.what = kinds[i];
   }
   if (!d.what) {
-    complain(l, word, "%s cannot be drawn between two places",
-             "%s lässt sich nicht zwischen zwei Orten zeichnen",
-             "line, rod, rope, spring or damper", "line, rod, rope, spring oder damper");
+    complain(l, word, PL_BOTH("%s cannot be drawn between two places"),
+             PL_BOTH("line, rod, rope, spring or damper"));
     return;
   }
   bool a = pl_lower_where(l, pl_ast_kid(s, 2), &d.a, NULL),
@@ -87,9 +84,8 @@ void pl_lower_draw(pl_lower* l, const pl_ast* s) {
   bool show = !animate && strcmp(word->text, "show") == 0,
        hide = !animate && strcmp(word->text, "hide") == 0;
   if (!animate && !show && !hide) {
-    complain(l, word, "draw %s is not understood", "draw %s ist nicht zu verstehen",
-             "write  draw hide THINGS, draw show THINGS or draw line between A and B",
-             "schreibe  draw hide DINGE, draw show DINGE oder draw line between A and B");
+    complain(l, word, PL_BOTH("draw %s is not understood"),
+             PL_BOTH("write  draw hide THINGS, draw show THINGS or draw line between A and B"));
     return;
   }
   for (int i = 0; i < list->kids.n; i++)

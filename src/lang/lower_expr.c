@@ -48,8 +48,7 @@ pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
                          const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
   if (a.n != b.n) {
-    return mixed(l, where, "a vector and a number cannot be added",
-                 "ein Vektor und eine Zahl lassen sich nicht addieren");
+    return mixed(l, where, PL_BOTH("a vector and a number cannot be added"));
   }
   pl_quantity sum = {.n = a.n};
   for (int i = 0; i < (a.n ? a.n : 1); i++) {
@@ -61,14 +60,11 @@ pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
 pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide,
                            const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
-  if (b.n && divide)
-    return mixed(l, where, "nothing can be divided by a vector",
-                 "durch einen Vektor lässt sich nicht teilen");
+  if (b.n && divide) return mixed(l, where, PL_BOTH("nothing can be divided by a vector"));
   if (a.n && b.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "a product of two vectors",
-                                         "ein Produkt zweier Vektoren");
-    pl_suggest(l->job, m, NULL, "write dot(a, b) or cross(a, b)",
-               "schreibe dot(a, b) oder cross(a, b)");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where),
+                                         PL_BOTH("a product of two vectors"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write dot(a, b) or cross(a, b)"));
     return pl_quantity_bad();
   }
   if (b.n) {
@@ -80,9 +76,9 @@ pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divid
   for (int i = 0; i < (a.n ? a.n : 1); i++) {
     product.at[i] = divide ? pl_div(l->pool, a.at[i], b.at[0]) : pl_mul(l->pool, a.at[i], b.at[0]);
     if (!pl_is_poison(product.at[i])) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value",
-                                         "das hat keinen Wert");
-    if (divide) pl_because(l->job, m, "division by zero", "Division durch null");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where),
+                                         PL_BOTH("this has no value"));
+    if (divide) pl_because(l->job, m, PL_BOTH("division by zero"));
     return pl_quantity_bad();
   }
   return product;
@@ -128,13 +124,10 @@ bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out) {
   span.begin = start + (uint32_t)bad_at;
   span.end = span.begin + (uint32_t)(bad_n ? bad_n : 1);
   const char* shown = pl_copy_n(l->arena, node->text + bad_at, bad_n);
-  pl_diagnostic* m =
-      bad_n ? pl_lower_complain(l, PL_E022, span, "%s is not a unit", "%s ist keine Einheit", shown)
-            : pl_lower_complain(l, PL_E022, span, "a unit is missing", "hier fehlt eine Einheit");
-  if (near) pl_suggest(l->job, m, near, "did you mean %s?", "war %s gemeint?", near);
-  else
-    pl_suggest(l->job, m, NULL, "units are written as in [m/s^2], [kN m], [rad/s]",
-               "Einheiten schreibt man wie [m/s^2], [kN m], [rad/s]");
+  pl_diagnostic* m = bad_n ? pl_lower_complain(l, PL_E022, span, PL_BOTH("%s is not a unit"), shown)
+                           : pl_lower_complain(l, PL_E022, span, PL_BOTH("a unit is missing"));
+  if (near) pl_suggest(l->job, m, near, PL_BOTH("did you mean %s?"), near);
+  else pl_suggest(l->job, m, NULL, PL_BOTH("units are written as in [m/s^2], [kN m], [rad/s]"));
   return false;
 }
 
@@ -144,22 +137,20 @@ static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity 
   bool number = q.n == 0 && pl_is_constant(l->pool, q.at[0]);
   if (number) return pl_quantity_of(pl_measure_make(l->pool, q.at[0], &unit, node->text));
   pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node),
-                                       "a unit belongs to a number or a declaration",
-                                       "eine Einheit gehört zu einer Zahl oder Vereinbarung");
+                                       PL_BOTH("a unit belongs to a number or a declaration"));
   const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));
-  pl_suggest(l->job, m, text, "write %s; its unit follows from its names",
-             "schreibe %s; die Einheit folgt aus den Namen", text);
+  pl_suggest(l->job, m, text, PL_BOTH("write %s; its unit follows from its names"), text);
   return pl_quantity_bad();
 }
 
 static pl_quantity lower_degree(pl_lower* l, const pl_ast* node, pl_quantity q) {
   if (pl_quantity_is_bad(&q)) return q;
   if (q.n || !pl_is_constant(l->pool, q.at[0]) || pl_unit_occurs(l->pool, q.at[0])) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "° belongs to a number",
-                                         "° gehört zu einer Zahl");
-    pl_because(l->job, m, "angles are in radians", "Winkel sind im Bogenmaß");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node),
+                                         PL_BOTH("° belongs to a number"));
+    pl_because(l->job, m, PL_BOTH("angles are in radians"));
     const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));
-    pl_suggest(l->job, m, text, "write %s", "schreibe %s", text);
+    pl_suggest(l->job, m, text, PL_BOTH("write %s"), text);
     return pl_quantity_bad();
   }
   return pl_quantity_of(
@@ -176,10 +167,9 @@ static pl_quantity lower_power(pl_lower* l, const pl_ast* node, pl_quantity base
   pl_expr exponent = pl_lower_scalar(l, e);
   if (pl_quantity_is_bad(&base) || pl_is_poison(exponent)) return pl_quantity_bad();
   if (base.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a power of a vector",
-                                         "eine Potenz eines Vektors");
-    pl_suggest(l->job, m, NULL, "write dot(a, a) or norm(a)^2",
-               "schreibe dot(a, a) oder norm(a)^2");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                         PL_BOTH("a power of a vector"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write dot(a, a) or norm(a)^2"));
     return pl_quantity_bad();
   }
   // exact numbers: a power with thousands of digits is not what anybody wants
@@ -188,13 +178,12 @@ static pl_quantity lower_power(pl_lower* l, const pl_ast* node, pl_quantity base
   bool whole = pl_is_int(l->pool, exponent, &n);
   if (pl_is_constant(l->pool, base.at[0]) && pl_is_number(l->pool, exponent)
       && (whole ? labs(n) : 0) > MOST) {
-    pl_lower_complain(l, PL_E007, pl_ast_span(node), "this number has too many digits",
-                      "diese Zahl hat zu viele Stellen");
+    pl_lower_complain(l, PL_E007, pl_ast_span(node), PL_BOTH("this number has too many digits"));
     return pl_quantity_bad();
   }
   pl_expr value = pl_pow(l->pool, base.at[0], exponent);
   if (pl_is_poison(value)) {
-    pl_lower_complain(l, PL_E040, pl_ast_span(node), "this has no value", "das hat keinen Wert");
+    pl_lower_complain(l, PL_E040, pl_ast_span(node), PL_BOTH("this has no value"));
     return pl_quantity_bad();
   }
   return pl_quantity_of(value);
@@ -209,18 +198,18 @@ static pl_quantity lower_prime(pl_lower* l, const pl_ast* node) {
   }
   if (inner->kind == PL_AST_NAME && pl_lower_is_function(l, inner->key)) {
     pl_diagnostic* m = pl_lower_complain(
-        l, PL_E015, pl_ast_span(node), "a prime is a time derivative, not that of a function",
-        "ein Strich ist eine Zeitableitung, nicht die einer Funktion");
-    pl_suggest(l->job, m, NULL, "write diff(%s(x), x)", "schreibe diff(%s(x), x)", inner->shown);
+        l, PL_E015, pl_ast_span(node),
+        PL_BOTH("a prime is a time derivative, not that of a function"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write diff(%s(x), x)"), inner->shown);
     return pl_quantity_bad();
   }
   if (inner->kind == PL_AST_NAME) return pl_lower_name(l, inner, NULL, dots, node);
   if (inner->kind == PL_AST_INDEXED)
     return pl_lower_name(l, pl_ast_kid(inner, 0), pl_ast_kid(inner, 1), dots, node);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name",
-                                       "ein Strich gehört zu einem Namen");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                       PL_BOTH("a prime belongs to a name"));
   const char* text = pl_source_text(l->arena, pl_ast_span(inner));
-  pl_suggest(l->job, m, pl_format(l->arena, "dt%s", text), "write dt%s", "schreibe dt%s", text);
+  pl_suggest(l->job, m, pl_format(l->arena, "dt%s", text), PL_BOTH("write dt%s"), text);
   return pl_quantity_bad();
 }
 
@@ -230,16 +219,14 @@ static pl_quantity lower_group(pl_lower* l, const pl_ast* node) {
     pl_ast_kind k = node->kids.at[i]->kind;
     if (k != PL_AST_RELATION && k != PL_AST_IN) continue;
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node->kids.at[i]),
-                                         "a condition cannot be a value",
-                                         "eine Bedingung ist kein Wert");
-    pl_suggest(l->job, m, NULL, "write if(condition, a, b) to choose between values",
-               "schreibe if(Bedingung, a, b), um zwischen Werten zu wählen");
+                                         PL_BOTH("a condition cannot be a value"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write if(condition, a, b) to choose between values"));
     return pl_quantity_bad();
   }
   if (n == 1) return pl_lower_quantity(l, node->kids.at[0]);
   if (n > 3) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(node), "a vector has at most three components",
-                      "ein Vektor hat höchstens drei Komponenten");
+    pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                      PL_BOTH("a vector has at most three components"));
     return pl_quantity_bad();
   }
   pl_quantity v = {.n = n};
@@ -272,9 +259,8 @@ pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base,
       }
       if (base && pl_ast_base(node) == base) {
         pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
-                                             "a prime belongs to a name",
-                                             "ein Strich gehört zu einem Namen");
-        pl_suggest(l->job, m, NULL, "write dt(...)", "schreibe dt(...)");
+                                             PL_BOTH("a prime belongs to a name"));
+        pl_suggest(l->job, m, NULL, PL_BOTH("write dt(...)"));
         return pl_quantity_bad();
       }
       return lower_prime(l, node);
@@ -288,8 +274,8 @@ pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node) {
     case PL_AST_PI: return pl_quantity_of(pl_pi(l->pool));
     case PL_AST_INFINITY:
       if (l->infinity) return pl_quantity_of(pl_infinity(l->pool));
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "∞ can only be the target of a limit",
-                        "∞ kann nur Ziel eines Grenzwerts sein");
+      pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                        PL_BOTH("∞ can only be the target of a limit"));
       return pl_quantity_bad();
     case PL_AST_NAME:
       if (pl_lower_is_function(l, node->key)) return pl_lower_call(l, node, NULL);
@@ -307,8 +293,7 @@ pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node) {
     case PL_AST_PRIME: return pl_lower_factor(l, node, NULL, NULL);
     case PL_AST_RELATION:
     case PL_AST_IN:
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a condition cannot be a value",
-                        "eine Bedingung ist kein Wert");
+      pl_lower_complain(l, PL_E017, pl_ast_span(node), PL_BOTH("a condition cannot be a value"));
       return pl_quantity_bad();
     default: l->wrong++; return pl_quantity_bad();
   }
@@ -319,14 +304,12 @@ pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node) {
   pl_quantity q = pl_lower_quantity(l, node);
   if (q.n) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
-                                         "a number is needed here, not a vector",
-                                         "hier ist eine Zahl nötig, kein Vektor");
-    pl_suggest(l->job, m, NULL, "take a component, x(A), or norm(...)",
-               "eine Komponente nehmen, x(A), oder norm(...)");
+                                         PL_BOTH("a number is needed here, not a vector"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("take a component, x(A), or norm(...)"));
     return pl_poison();
   }
   if (pl_is_poison(q.at[0]) && l->wrong == wrong) {
-    pl_lower_complain(l, PL_E040, pl_ast_span(node), "this has no value", "das hat keinen Wert");
+    pl_lower_complain(l, PL_E040, pl_ast_span(node), PL_BOTH("this has no value"));
   }
   return q.at[0];
 }
@@ -350,10 +333,8 @@ bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int a
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return false;
   if (a.n || b.n) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
-                                         "vectors cannot be compared",
-                                         "Vektoren lassen sich nicht vergleichen");
-    pl_suggest(l->job, m, NULL, "write one relation for each component",
-               "für jede Komponente eine Beziehung schreiben");
+                                         PL_BOTH("vectors cannot be compared"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write one relation for each component"));
     return false;
   }
   pl_span span = at == 0 && node->kids.n == 2 ? pl_ast_span(node)

@@ -35,10 +35,10 @@ static bool missing_colon(pl_lower* l, const pl_ast* s, const pl_ast* value) {
   if (first->kind != PL_AST_NAME || pl_scope_known(l, first) || pl_scope_lost(l, first->key))
     return false;
   pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(first),
-                                       "a colon is missing after the label %s",
-                                       "hinter der Marke %s fehlt ein Doppelpunkt", first->shown);
-  pl_suggest(l->job, m, pl_format(l->arena, "%s:", first->shown),
-             "write %s:", "schreibe %s:", first->shown);
+                                       PL_BOTH("a colon is missing after the label %s"),
+                                       first->shown);
+  pl_suggest(l->job, m, pl_format(l->arena, "%s:", first->shown), PL_BOTH("write %s:"),
+             first->shown);
   pl_push(l->arena, l->lost, first->key);
   pl_push(l->arena, l->lost, pl_intern(l->names, pl_format(l->arena, "lambda_%s", first->key)));
   return true;
@@ -90,8 +90,8 @@ static void lower_rod(pl_lower* l, const pl_ast* s) {
                                pl_format(l->arena, "rod%d", l->m->masses.n + 1));
   if (!fine_a || !fine_b || pl_is_poison(mass)) return;
   if (a.n != b.n) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(s), "the ends have %d and %d components",
-                      "die Enden haben %d und %d Komponenten", a.n, b.n);
+    pl_lower_complain(l, PL_E017, pl_ast_span(s), PL_BOTH("the ends have %d and %d components"),
+                      a.n, b.n);
     return;
   }
   pl_point middle = a;
@@ -118,14 +118,13 @@ static void lower_gravity(pl_lower* l, const pl_ast* s) {
     pl_text all = pl_text_make(l->arena);
     for (int k = 0; k < l->m->n_axes; k++)
       pl_text_addf(&all, "%s%s", k ? ", " : "", l->m->axes[k].name);
-    pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there is no axis %s",
-                                         "es gibt keine Achse %s", axis->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(axis),
+                                         PL_BOTH("there is no axis %s"), axis->shown);
     if (l->m->n_axes)
-      pl_suggest(l->job, m, NULL, "the axes are %s; others are declared by  axes x right, z up",
-                 "die Achsen sind %s; andere vereinbart  axes x right, z up", pl_text_string(&all));
-    else
-      pl_suggest(l->job, m, NULL, "declare  axes x right, %s up",
-                 "vereinbaren:  axes x right, %s up", axis->shown);
+      pl_suggest(l->job, m, NULL,
+                 PL_BOTH("the axes are %s; others are declared by  axes x right, z up"),
+                 pl_text_string(&all));
+    else pl_suggest(l->job, m, NULL, PL_BOTH("declare  axes x right, %s up"), axis->shown);
     return;
   }
   if (!pl_is_poison(g))
@@ -148,16 +147,13 @@ static void lower_force(pl_lower* l, const pl_ast* s) {
   if (pl_quantity_is_bad(&v) || !fine) return;
   int n = v.n ? v.n : 1;
   if (n != load.a.n) {
-    pl_diagnostic* m = pl_lower_complain(
-        l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)), "the force has %d components, its point has %d",
-        "die Kraft hat %d Komponenten, ihr Angriffspunkt %d", n, load.a.n);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
+                                         PL_BOTH("the force has %d components, its point has %d"),
+                                         n, load.a.n);
     pl_suggest(l->job, m, NULL,
-               load.a.n == 2   ? "write (Fx, Fy)"
-               : load.a.n == 3 ? "write (Fx, Fy, Fz)"
-                               : "write one component",
-               load.a.n == 2   ? "schreibe (Fx, Fy)"
-               : load.a.n == 3 ? "schreibe (Fx, Fy, Fz)"
-                               : "schreibe eine Komponente");
+               PL_BOTH(load.a.n == 2   ? "write (Fx, Fy)"
+                       : load.a.n == 3 ? "write (Fx, Fy, Fz)"
+                                       : "write one component"));
     return;
   }
   memcpy(load.vector, v.at, sizeof load.vector);
@@ -173,11 +169,9 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
     pl_site* p;
     if (!pl_lower_label_point(l, name, index, &at, &p)) return false;
     if (p->kind != PL_SITE_BODY) {
-      pl_diagnostic* m = pl_lower_complain(
-          l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
-          "ein Moment wirkt auf einen Körper oder eine Koordinate");
-      pl_suggest(l->job, m, NULL, "write  force (Fx, Fy) on %s", "schreibe  force (Fx, Fy) on %s",
-                 p->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on),
+                                           PL_BOTH("a torque acts on a body or a coordinate"));
+      pl_suggest(l->job, m, NULL, PL_BOTH("write  force (Fx, Fy) on %s"), p->shown);
       return false;
     }
     angle = p->angle;
@@ -191,12 +185,11 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
   if (!symbol && (pl_kind_of(l->pool, angle) == PL_AT || pl_has_role(l->pool, angle, PL_R_COORD))) {
     pl_lower_pending(
         l, PL_E091, "torque", pl_ast_span(on),
-        "a torque on anything but a coordinate is not computed by this version",
-        "ein Moment auf etwas anderes als eine Koordinate berechnet diese Version nicht");
+        PL_BOTH("a torque on anything but a coordinate is not computed by this version"));
     return false;
   }
-  pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
-                    "ein Moment wirkt auf einen Körper oder eine Koordinate");
+  pl_lower_complain(l, PL_E017, pl_ast_span(on),
+                    PL_BOTH("a torque acts on a body or a coordinate"));
   return false;
 }
 
@@ -244,20 +237,15 @@ static void lower_drag(pl_lower* l, const pl_ast* s) {
 static bool check_relation(pl_lower* l, const pl_ast* r) {
   if (r->kids.n > 2) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r),
-                                         "a constraint has one relation sign",
-                                         "eine Zwangsbedingung hat ein Beziehungszeichen");
-    pl_suggest(l->job, m, NULL, "write one constraint for each",
-               "für jede eine eigene Zwangsbedingung schreiben");
+                                         PL_BOTH("a constraint has one relation sign"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write one constraint for each"));
     return false;
   }
   char op = r->ops.at[1];
   if (op == '=' || op == 'g' || op == 'l') return true;
   pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r),
-                                       "a constraint is written with =, >= or <=",
-                                       "eine Zwangsbedingung schreibt man mit =, >= oder <=");
-  if (op != '!')
-    pl_suggest(l->job, m, NULL,
-               op == '>' ? "write >=" : "write <=", op == '>' ? "schreibe >=" : "schreibe <=");
+                                       PL_BOTH("a constraint is written with =, >= or <="));
+  if (op != '!') pl_suggest(l->job, m, NULL, PL_BOTH(op == '>' ? "write >=" : "write <="));
   return false;
 }
 
@@ -307,15 +295,14 @@ static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int 
   const char* text = pl_source_text(l->arena, pl_ast_span(node));
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E030, pl_ast_span(node),
-      most_dots ? "%s is not a coordinate or velocity" : "%s is not a coordinate",
-      most_dots ? "%s ist keine Koordinate oder Geschwindigkeit" : "%s ist keine Koordinate", text);
+      PL_BOTH(most_dots ? "%s is not a coordinate or velocity" : "%s is not a coordinate"), text);
   if (kind == PL_SYMBOL
       && pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role == PL_R_START) {
     const pl_ast* first = node->kind == PL_AST_PRODUCT ? node->kids.at[0] : node;
     const char* name = pl_source_text(l->arena, pl_ast_span(first));
-    pl_suggest(l->job, m, name, "write %s", "schreibe %s", name);
+    pl_suggest(l->job, m, name, PL_BOTH("write %s"), name);
   } else {
-    pl_suggest(l->job, m, NULL, "write  coordinate = value", "schreibe  Koordinate = Wert");
+    pl_suggest(l->job, m, NULL, PL_BOTH("write  coordinate = value"));
   }
   return false;
 }
@@ -323,9 +310,8 @@ static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int 
 static bool equation(pl_lower* l, const pl_ast* r) {
   if (r->kids.n == 2 && r->ops.at[1] == '=') return true;
   pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r),
-                                       "an equation with one = is needed here",
-                                       "hier ist eine Gleichung mit einem = nötig");
-  pl_suggest(l->job, m, NULL, "write  name = value", "schreibe  Name = Wert");
+                                       PL_BOTH("an equation with one = is needed here"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write  name = value"));
   return false;
 }
 
@@ -342,8 +328,7 @@ static void lower_choose(pl_lower* l, const pl_ast* s) {
     if (pl_kind_of(l->pool, q) == PL_SYMBOL) pl_push(l->arena, c->coords, pl_symbol_of(l->pool, q));
     else
       pl_lower_pending(l, PL_N091, "choose", pl_ast_span(names->kids.at[i]),
-                       "members of families are not chosen by this version",
-                       "Glieder von Familien wählt diese Version nicht");
+                       PL_BOTH("members of families are not chosen by this version"));
   }
   int n = maps ? maps->kids.n : 0;
   struct pl_map_equation* all = PL_ARRAY(l->arena, struct pl_map_equation, c->n_maps + n + 1);

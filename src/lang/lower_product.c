@@ -59,17 +59,16 @@ static bool refuse_exponent(product* p, const pl_ast* f) {
   bool minus = e->kind == PL_AST_NEG || (e->kind == PL_AST_NUMBER && e->text[0] == '-');
   if (!minus) return false;
   pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, pl_ast_span(f),
-                                       "%s can mean the inverse function or one over it",
-                                       "%s kann die Umkehrfunktion oder den Kehrwert bedeuten",
+                                       PL_BOTH("%s can mean the inverse function or one over it"),
                                        pl_source_text(p->l->arena, pl_ast_span(f)));
   const char* inverse = inverse_of(name->key);
   int next = p->at + 1;
   const char* argument = factor(p, next) && blank_before(p, next) ? text_between(p, next, next)
                                                                   : "x";
   if (inverse)
-    pl_suggest(p->l->job, m, inverse, "write %1$s %3$s  or  1/%2$s %3$s",
-               "schreibe %1$s %3$s  oder  1/%2$s %3$s", inverse, name->shown, argument);
-  else pl_suggest(p->l->job, m, NULL, "write 1/%s %s", "schreibe 1/%s %s", name->shown, argument);
+    pl_suggest(p->l->job, m, inverse, PL_BOTH("write %1$s %3$s  or  1/%2$s %3$s"), inverse,
+               name->shown, argument);
+  else pl_suggest(p->l->job, m, NULL, PL_BOTH("write 1/%s %s"), name->shown, argument);
   return true;
 }
 
@@ -79,10 +78,9 @@ static void needs_brackets(product* p, int from, int to, const char* name, const
   const char* fixed = pl_format(p->l->arena, "%s(%s)", name,
                                 rest ? pl_format(p->l->arena, "%s %s", argument, rest) : argument);
   pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, span_between(p, from, to),
-                                       "%s needs brackets", "%s braucht Klammern", whole);
-  pl_because(p->l->job, m, "without them a function takes one factor",
-             "ohne sie nimmt eine Funktion einen Faktor");
-  pl_suggest(p->l->job, m, fixed, "write %s", "schreibe %s", fixed);
+                                       PL_BOTH("%s needs brackets"), whole);
+  pl_because(p->l->job, m, PL_BOTH("without them a function takes one factor"));
+  pl_suggest(p->l->job, m, fixed, PL_BOTH("write %s"), fixed);
 }
 
 static pl_quantity read_run(product* p);
@@ -118,12 +116,11 @@ static bool check_after_argument(product* p, int from, const pl_ast* name, int a
   bool moving = next->kind == PL_AST_PRIME || (base->kind == PL_AST_NAME && base->number > 0);
   if (base->kind == PL_AST_NAME && !moving && next->kind == PL_AST_NAME) {
     const char* run = text_between(p, from, argument);
-    pl_diagnostic* m = pl_lower_complain(
-        p->l, PL_W071, span_between(p, from, argument + 1), "%1$s is read as (%2$s) %3$s",
-        "%1$s wird als (%2$s) %3$s gelesen", text_between(p, from, argument + 1), run, next->shown);
-    pl_suggest(p->l->job, m, NULL, "write %2$s %1$s, or %3$s(%4$s %2$s) if that is meant",
-               "schreibe %2$s %1$s, oder %3$s(%4$s %2$s), falls das gemeint ist", run, next->shown,
-               name->shown, text_between(p, argument, argument));
+    pl_diagnostic* m = pl_lower_complain(p->l, PL_W071, span_between(p, from, argument + 1),
+                                         PL_BOTH("%1$s is read as (%2$s) %3$s"),
+                                         text_between(p, from, argument + 1), run, next->shown);
+    pl_suggest(p->l->job, m, NULL, PL_BOTH("write %2$s %1$s, or %3$s(%4$s %2$s) if that is meant"),
+               run, next->shown, name->shown, text_between(p, argument, argument));
   }
   return true;
 }
@@ -184,12 +181,11 @@ static pl_quantity start_of(product* p, const pl_ast* place, pl_quantity q, cons
     return pl_quantity_of(
         pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_START, q.at[0], (pl_symbol){0})));
   const char* text = pl_source_text(l->arena, pl_ast_span(place));
-  pl_diagnostic* m = pl_lower_complain(l, PL_E016, span, "the start value of %s cannot be named",
-                                       "der Startwert von %s lässt sich nicht benennen", text);
-  pl_because(l->job, m,
-             "only coordinates and velocities have one, and results where they are asked for",
-             "nur Koordinaten und Geschwindigkeiten haben einen, und Ergebnisse dort, wo nach "
-             "ihnen gefragt wird");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E016, span,
+                                       PL_BOTH("the start value of %s cannot be named"), text);
+  pl_because(
+      l->job, m,
+      PL_BOTH("only coordinates and velocities have one, and results where they are asked for"));
   return pl_quantity_bad();
 }
 
@@ -224,11 +220,10 @@ static pl_quantity hidden_result(product* p, const pl_ast* f, const pl_ast* grou
   }
   pl_span span = pl_span_join(pl_ast_span(f), pl_ast_span(group));
   pl_diagnostic* m = pl_lower_complain(
-      p->l, PL_E016, span, "%1$s is declared here, and %1$s(0) is no start value of it",
-      "%1$s ist hier vereinbart, und %1$s(0) ist kein Startwert davon", f->shown);
+      p->l, PL_E016, span, PL_BOTH("%1$s is declared here, and %1$s(0) is no start value of it"),
+      f->shown);
   pl_suggest(p->l->job, m, pl_format(p->l->arena, "%s(0)", word),
-             "write %s(0) for the value at the start", "schreibe %s(0) für den Wert am Anfang",
-             word);
+             PL_BOTH("write %s(0) for the value at the start"), word);
   p->at += 2;
   return pl_quantity_bad();
 }
@@ -251,8 +246,8 @@ static pl_quantity component(product* p, const pl_ast* f, const pl_ast* group) {
   if (!pl_lower_label_point(p->l, label, index, &at, NULL)) return pl_quantity_bad();
   int axis = pl_axis_find(p->l, f->key);
   if (axis < at.n) return pl_quantity_of(at.at[axis]);
-  pl_lower_complain(p->l, PL_E029, pl_ast_span(f), "%s has no %s component",
-                    "%s hat keine %s-Komponente", label->shown, f->shown);
+  pl_lower_complain(p->l, PL_E029, pl_ast_span(f), PL_BOTH("%s has no %s component"), label->shown,
+                    f->shown);
   return pl_quantity_bad();
 }
 
@@ -270,12 +265,10 @@ static pl_quantity coordinate_bracket(product* p, const pl_ast* f, const pl_ast*
     pl_span span = pl_span_join(pl_ast_span(f), pl_ast_span(group));
     pl_diagnostic* m = pl_lower_complain(
         l, PL_E016, span,
-        "a bracket that touches a coordinate is its value at a time: %1$s(0) or %1$s(t)",
-        "eine Klammer direkt hinter einer Koordinate ist ihr Wert zu einer Zeit: %1$s(0) oder "
-        "%1$s(t)",
+        PL_BOTH("a bracket that touches a coordinate is its value at a time: %1$s(0) or %1$s(t)"),
         name);
-    pl_suggest(l->job, m, pl_format(l->arena, "%s %s", name, inner), "write %s %s  for the product",
-               "schreibe %s %s  für das Produkt", name, inner);
+    pl_suggest(l->job, m, pl_format(l->arena, "%s %s", name, inner),
+               PL_BOTH("write %s %s  for the product"), name, inner);
     return pl_quantity_bad();
   }
   return next == group ? q : pl_lower_factor(l, next, group, &q);
@@ -321,10 +314,9 @@ static bool unit_without_brackets(product* p, int i) {
     }
     if (!has_unknown) continue;
     pl_diagnostic* m = pl_lower_complain(p->l, PL_E024, span,
-                                         "%s looks like a unit without brackets",
-                                         "%s sieht nach einer Einheit ohne Klammern aus", text);
-    pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), "write %s [%s]",
-               "schreibe %s [%s]", text_between(p, i - 1, i - 1), text);
+                                         PL_BOTH("%s looks like a unit without brackets"), text);
+    pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), PL_BOTH("write %s [%s]"),
+               text_between(p, i - 1, i - 1), text);
     p->at = last + 1;
     return true;
   }
@@ -337,13 +329,12 @@ static bool numbers_side_by_side(product* p, int i) {
   if (a->kind != PL_AST_NUMBER || b->kind != PL_AST_NUMBER || factor(p, i - 1)->kind == PL_AST_UNIT)
     return false;
   pl_span span = pl_span_join(pl_ast_span(a), pl_ast_span(b));
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E001, span, "two numbers side by side",
-                                       "zwei Zahlen nebeneinander");
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E001, span, PL_BOTH("two numbers side by side"));
   // 1 000 is a thousand with a blank
   bool thousand = strlen(b->text) == 3 && strlen(a->text) <= 3 && !strpbrk(a->text, ".e")
                   && !strpbrk(b->text, ".e");
   const char* fixed = pl_format(p->l->arena, thousand ? "%s%s" : "%s*%s", a->text, b->text);
-  pl_suggest(p->l->job, m, fixed, "write %s", "schreibe %s", fixed);
+  pl_suggest(p->l->job, m, fixed, PL_BOTH("write %s"), fixed);
   return true;
 }
 
@@ -389,10 +380,10 @@ static void two_readings(product* p, int numerator, int divisor) {
   const char* all = text_between(p, numerator, last);
   const char* first = pl_format(p->l->arena, "(%s/%s) %s", above, below, rest);
   pl_span span = span_between(p, numerator, last);
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E014, span, "%s can be read in two ways",
-                                       "%s lässt sich auf zwei Arten lesen", all);
-  pl_suggest(p->l->job, m, first, "write %1$s  or  %2$s/(%3$s %4$s)",
-             "schreibe %1$s  oder  %2$s/(%3$s %4$s)", first, above, below, rest);
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E014, span, PL_BOTH("%s can be read in two ways"),
+                                       all);
+  pl_suggest(p->l->job, m, first, PL_BOTH("write %1$s  or  %2$s/(%3$s %4$s)"), first, above, below,
+             rest);
   p->at = p->node->kids.n;
 }
 
@@ -408,12 +399,10 @@ static bool unit_of_fraction(product* p, int numerator, int divisor, pl_quantity
     const char* unit = d->kind == PL_AST_DEGREE ? "°" : pl_format(l->arena, " [%s]", d->text);
     const char* above = text_between(p, numerator, divisor - 1);
     pl_span span = span_between(p, numerator, divisor);
-    pl_diagnostic* m = pl_lower_complain(l, PL_E014, span, "%s can be read in two ways",
-                                         "%s lässt sich auf zwei Arten lesen",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E014, span, PL_BOTH("%s can be read in two ways"),
                                          pl_source_text(l->arena, span));
     pl_suggest(l->job, m, NULL,
-               "write %1$s/(%2$s%3$s)  or  give %1$s its unit where it is declared",
-               "schreibe %1$s/(%2$s%3$s)  oder  gib %1$s die Einheit in der Vereinbarung", above,
+               PL_BOTH("write %1$s/(%2$s%3$s)  or  give %1$s its unit where it is declared"), above,
                number, unit);
     *q = pl_quantity_bad();
     return true;

@@ -22,9 +22,9 @@
   } while (0)
 
 static void not_a_condition(pl_lower* l, const pl_ast* node) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "an equation is needed here",
-                                       "hier ist eine Gleichung nötig");
-  pl_suggest(l->job, m, NULL, "write  name = value", "schreibe  Name = Wert");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                       PL_BOTH("an equation is needed here"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write  name = value"));
 }
 
 static void lower_motion(pl_lower* l, const pl_ast* node, pl_motion* out) {
@@ -48,10 +48,9 @@ static void lower_frame(pl_lower* l, const pl_ast* group, pl_ask* a) {
       continue;
     }
     pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(group->kids.at[i]),
-                                         "%s is not a coordinate", "%s ist keine Koordinate",
+                                         PL_BOTH("%s is not a coordinate"),
                                          pl_source_text(l->arena, pl_ast_span(group->kids.at[i])));
-    pl_suggest(l->job, m, NULL, "write the coordinates, as in  in (r, φ)",
-               "die Koordinaten schreiben, wie in  in (r, φ)");
+    pl_suggest(l->job, m, NULL, PL_BOTH("write the coordinates, as in  in (r, φ)"));
   }
 }
 
@@ -67,10 +66,9 @@ static pl_symbol lower_variable(pl_lower* l, const pl_ast* node, bool may_be_new
   pl_expr e = pl_lower_scalar(l, node);
   if (pl_is_poison(e)) return (pl_symbol){0};
   if (pl_kind_of(l->pool, e) == PL_SYMBOL) return pl_symbol_of(l->pool, e);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a name is needed here",
-                                       "hier ist ein Name nötig");
-  pl_suggest(l->job, m, NULL, "write a parameter or coordinate",
-             "einen Parameter oder eine Koordinate schreiben");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                       PL_BOTH("a name is needed here"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write a parameter or coordinate"));
   return (pl_symbol){0};
 }
 
@@ -116,8 +114,7 @@ static void lower_series(pl_lower* l, const pl_ast* i, pl_ask* a) {
   long n = 0;
   if (order && (!pl_is_int(l->pool, pl_lower_scalar(l, order), &n) || n < 1 || n > 50)) {
     pl_lower_complain(l, PL_E017, pl_ast_span(order),
-                      "the order of a series is a number from 1 to 50",
-                      "die Ordnung einer Reihe ist eine Zahl von 1 bis 50");
+                      PL_BOTH("the order of a series is a number from 1 to 50"));
     n = 0;
   }
   a->order = (int)n;
@@ -169,10 +166,9 @@ static void lower_solve(pl_lower* l, const pl_ast* i, pl_ask* a) {
   if (pl_is_poison(a->value)) return;
   pl_kind kind = pl_kind_of(l->pool, a->value);
   if (kind == PL_SYMBOL || kind == PL_AT) return;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what), "solve takes one name",
-                                       "solve nimmt einen Namen");
-  pl_suggest(l->job, m, NULL, "write  solve λ,  solve x''  or  solve x(t)",
-             "schreibe  solve λ,  solve x''  oder  solve x(t)");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what),
+                                       PL_BOTH("solve takes one name"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write  solve λ,  solve x''  or  solve x(t)"));
 }
 
 static void lower_value(pl_lower* l, const pl_ast* i, pl_ask* a) {
@@ -181,10 +177,8 @@ static void lower_value(pl_lower* l, const pl_ast* i, pl_ask* a) {
   pl_quantity q = pl_lower_quantity(l, what);
   if (q.n) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what),
-                                         "a number is needed here, not a vector",
-                                         "hier ist eine Zahl nötig, kein Vektor");
-    pl_suggest(l->job, m, NULL, "ask for one component, as in x(A)",
-               "nach einer Komponente fragen, wie in x(A)");
+                                         PL_BOTH("a number is needed here, not a vector"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("ask for one component, as in x(A)"));
   }
   a->value = q.at[0];
   PUSH_CONDITIONS(l, pl_ast_kid(i, 1), a->where);
@@ -226,8 +220,8 @@ static void lower_modes(pl_lower* l, const pl_ast* i, pl_ask* a) {
     if (pl_is_poison(e)) continue;
     if (pl_kind_of(l->pool, e) == PL_SYMBOL) pl_push(l->arena, a->frame, pl_symbol_of(l->pool, e));
     else
-      pl_lower_complain(l, PL_E017, pl_ast_span(holding->kids.at[k]), "a name is needed here",
-                        "hier ist ein Name nötig");
+      pl_lower_complain(l, PL_E017, pl_ast_span(holding->kids.at[k]),
+                        PL_BOTH("a name is needed here"));
   }
 }
 
@@ -236,8 +230,7 @@ static void lower_expect(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* r = pl_ast_kid(i, 0);
   pl_condition c;
   if (r->kids.n != 2 || r->ops.at[1] == '!') {
-    pl_lower_complain(l, PL_E017, pl_ast_span(r), "expect takes one equation",
-                      "expect nimmt eine Gleichung");
+    pl_lower_complain(l, PL_E017, pl_ast_span(r), PL_BOTH("expect takes one equation"));
     return;
   }
   if (!pl_lower_relation(l, r, &c, 0)) return;
@@ -380,16 +373,13 @@ void pl_lower_event(pl_lower* l, const pl_ast* s) {
   const pl_ast* name = pl_ast_kid(label, 0);
   e.name = (pl_name){.text = name->shown, .ascii = name->key};
   if (pl_ast_kid(label, 1))
-    pl_lower_complain(l, PL_E025, pl_ast_span(label), "events are not families",
-                      "Ereignisse sind keine Familien");
+    pl_lower_complain(l, PL_E025, pl_ast_span(label), PL_BOTH("events are not families"));
   pl_condition c;
   bool fine = false;
   if (when->kids.n != 2 || when->ops.at[1] != '=') {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(when),
-                                         "an event happens when an equation holds",
-                                         "ein Ereignis tritt ein, wenn eine Gleichung gilt");
-    pl_suggest(l->job, m, NULL, "write = ; add rising or falling for a direction",
-               "schreibe = ; rising oder falling gibt die Richtung an");
+                                         PL_BOTH("an event happens when an equation holds"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write = ; add rising or falling for a direction"));
   } else {
     fine = pl_lower_relation(l, when, &c, 0);
   }
@@ -437,8 +427,8 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
   if (count == NULL) return;
   *count = 0;
   if (number && (!pl_is_int(l->pool, pl_lower_scalar(l, number), count) || *count < 1)) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(number), "a count is a whole number above 0",
-                      "eine Anzahl ist eine ganze Zahl über 0");
+    pl_lower_complain(l, PL_E017, pl_ast_span(number),
+                      PL_BOTH("a count is a whole number above 0"));
     *count = 0;
   }
 }
@@ -446,12 +436,12 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
 static void lower_simulate(pl_lower* l, const pl_ast* s) {
   pl_simulate* m = &l->m->simulate;
   if (m->given) {
-    pl_diagnostic* d = pl_lower_complain(l, PL_E028, pl_ast_span(s), "simulate is given twice",
-                                         "simulate ist zweimal angegeben");
+    pl_diagnostic* d = pl_lower_complain(l, PL_E028, pl_ast_span(s),
+                                         PL_BOTH("simulate is given twice"));
     if (!l->mute)
       pl_report_label(l->job->diagnostics, d, m->span,
-                      l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-    pl_suggest(l->job, d, NULL, "keep one of them", "eine davon behalten");
+                      l->job->lang == PL_GERMAN ? pl_german("first here") : "first here");
+    pl_suggest(l->job, d, NULL, PL_BOTH("keep one of them"));
     return;
   }
   int wrong = l->wrong;
@@ -492,8 +482,8 @@ static void lower_sweep(pl_lower* l, const pl_ast* s) {
     lower_range(l, pl_ast_kid(sweeps->kids.at[i], 1), &lo, &hi, &step, &count);
   }
   for (int i = 0; of && i < of->kids.n; i++) pl_lower_quantity(l, of->kids.at[i]);
-  pl_lower_pending(l, PL_N091, "sweep", pl_ast_span(s), "sweeps are not computed by this version",
-                   "Parameterläufe (sweep) berechnet diese Version nicht");
+  pl_lower_pending(l, PL_N091, "sweep", pl_ast_span(s),
+                   PL_BOTH("sweeps are not computed by this version"));
 }
 
 static void lower_poincare(pl_lower* l, const pl_ast* s) {
@@ -502,8 +492,7 @@ static void lower_poincare(pl_lower* l, const pl_ast* s) {
   pl_lower_relation(l, pl_ast_kid(s, 0), &c, 0);
   for (int i = 0; i < of->kids.n; i++) pl_lower_quantity(l, of->kids.at[i]);
   pl_lower_pending(l, PL_N091, "poincare", pl_ast_span(s),
-                   "Poincaré sections are not computed by this version",
-                   "Poincaré-Schnitte berechnet diese Version nicht");
+                   PL_BOTH("Poincaré sections are not computed by this version"));
 }
 
 void pl_lower_display(pl_lower* l, const pl_ast* s) {

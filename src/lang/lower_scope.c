@@ -26,8 +26,7 @@ void pl_lower_pending(pl_lower* l, pl_code code, const char* what, pl_span span,
                       const char* de) {
   pl_diagnostic* m = pl_lower_complain(l, code, span, en, de);
   if (code == PL_E091) {
-    pl_suggest(l->job, m, NULL, "remove the line to solve the rest",
-               "die Zeile entfernen, um den Rest zu lösen");
+    pl_suggest(l->job, m, NULL, PL_BOTH("remove the line to solve the rest"));
   }
   pl_push(l->arena, l->m->pending, (pl_pending){what, span});
 }
@@ -77,14 +76,14 @@ pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role) {
 
 static const char* what_it_is(pl_entity_kind k, bool german) {
   switch (k) {
-    case PL_ENTITY_PARAM: return german ? "ein Parameter" : "a parameter";
-    case PL_ENTITY_INPUT: return german ? "ein Eingang" : "an input";
-    case PL_ENTITY_COORD: return german ? "eine Koordinate" : "a coordinate";
-    case PL_ENTITY_FAMILY: return german ? "eine Familie" : "a family";
-    case PL_ENTITY_LET: return german ? "eine Abkürzung" : "an abbreviation";
-    case PL_ENTITY_FUNCTION: return german ? "eine Funktion" : "a function";
-    case PL_ENTITY_INDEX: return german ? "ein Index" : "an index";
-    case PL_ENTITY_SMALL: return german ? "eine kleine Größe" : "a small quantity";
+    case PL_ENTITY_PARAM: return german ? pl_german("a parameter") : "a parameter";
+    case PL_ENTITY_INPUT: return german ? pl_german("an input") : "an input";
+    case PL_ENTITY_COORD: return german ? pl_german("a coordinate") : "a coordinate";
+    case PL_ENTITY_FAMILY: return german ? pl_german("a family") : "a family";
+    case PL_ENTITY_LET: return german ? pl_german("an abbreviation") : "an abbreviation";
+    case PL_ENTITY_FUNCTION: return german ? pl_german("a function") : "a function";
+    case PL_ENTITY_INDEX: return german ? pl_german("an index") : "an index";
+    case PL_ENTITY_SMALL: return german ? pl_german("a small quantity") : "a small quantity";
   }
   return "?";
 }
@@ -92,11 +91,10 @@ static const char* what_it_is(pl_entity_kind k, bool german) {
 static bool refuse_reserved(pl_lower* l, const pl_ast* name) {
   bool time = strcmp(name->key, "t") == 0;
   if (!time && !pl_word_function(name->key) && !pl_word_reserved(name->key)) return false;
-  pl_diagnostic* m = pl_lower_complain(
-      l, PL_E013, pl_ast_span(name), time ? "t is the time" : "%s is a reserved word",
-      time ? "t ist die Zeit" : "%s ist ein reserviertes Wort", name->key);
-  pl_suggest(l->job, m, NULL, "choose another name, such as %s1",
-             "einen anderen Namen wählen, etwa %s1", name->key);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name),
+                                       PL_BOTH(time ? "t is the time" : "%s is a reserved word"),
+                                       name->key);
+  pl_suggest(l->job, m, NULL, PL_BOTH("choose another name, such as %s1"), name->key);
   return true;
 }
 
@@ -106,26 +104,22 @@ pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name
   pl_entity* old = pl_scope_find(l, name->key);
   if (!refused && name->number > 0) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name),
-                                         "a derivative cannot be declared",
-                                         "eine Ableitung lässt sich nicht vereinbaren");
-    pl_suggest(l->job, m, name->shown, "declare %s; its derivatives follow",
-               "%s vereinbaren; die Ableitungen folgen daraus", name->shown);
+                                         PL_BOTH("a derivative cannot be declared"));
+    pl_suggest(l->job, m, name->shown, PL_BOTH("declare %s; its derivatives follow"), name->shown);
   } else if (!refused && old) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name),
-                                         "%1$s is declared twice%2$.0s",
-                                         "%1$s ist zweimal vereinbart%2$.0s", name->shown, "");
+                                         PL_BOTH("%1$s is declared twice%2$.0s"), name->shown, "");
     if (!l->mute) {
       pl_place at = pl_span_place(old->span);
-      pl_report_label(
-          l->job->diagnostics, m, old->span,
-          pl_format(l->arena,
-                    l->job->lang == PL_GERMAN ? "zuerst hier (Zeile %d)" : "first here (line %d)",
-                    at.line));
+      pl_report_label(l->job->diagnostics, m, old->span,
+                      pl_format(l->arena,
+                                l->job->lang == PL_GERMAN ? pl_german("first here (line %d)")
+                                                          : "first here (line %d)",
+                                at.line));
     }
-    pl_because(l->job, m, "already %1$s%2$.0s", "schon %1$.0s%2$s", what_it_is(old->kind, false),
+    pl_because(l->job, m, PL_BOTH("already %1$s%2$.0s"), what_it_is(old->kind, false),
                what_it_is(old->kind, true));
-    pl_suggest(l->job, m, NULL, "remove one of them, or choose another name",
-               "eine davon entfernen oder einen anderen Namen wählen");
+    pl_suggest(l->job, m, NULL, PL_BOTH("remove one of them, or choose another name"));
     refused = true;
   }
   pl_entity* e = PL_NEW(l->arena, pl_entity);
@@ -165,10 +159,9 @@ static bool only_given(pl_lower* l, pl_expr e) {
 }
 
 static void circle(pl_lower* l, pl_entity* e) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself",
-                                       "%s führt auf sich selbst zurück", e->shown);
-  pl_suggest(l->job, m, NULL, "write its right side without %s",
-             "die rechte Seite ohne %s schreiben", e->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, PL_BOTH("%s leads back to itself"),
+                                       e->shown);
+  pl_suggest(l->job, m, NULL, PL_BOTH("write its right side without %s"), e->shown);
   e->broken = true;
 }
 
@@ -180,8 +173,7 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
   }
   enum { MAX_DEPTH = 300 };
   if (l->call_depth > MAX_DEPTH) {
-    pl_lower_complain(l, PL_E006, e->span, "abbreviations are nested too deeply",
-                      "Abkürzungen sind zu tief verschachtelt");
+    pl_lower_complain(l, PL_E006, e->span, PL_BOTH("abbreviations are nested too deeply"));
     e->broken = true;
     e->state = 2;
     return;
@@ -283,8 +275,8 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
     l->wrong++;
     return PL_NEW(l->arena, pl_diagnostic);
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared",
-                                       "%s ist nicht vereinbart", name->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), PL_BOTH("%s is not declared"),
+                                       name->shown);
   guess best = {0};
   // a file full of unknown names needs no guess for each
   bool look = l->n_guesses++ < PL_MAX_GUESSES && !l->mute;
@@ -304,20 +296,18 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
   }
   const char* coordinates = all_coordinates(l, 8);
   const char* meant = l->results ? pl_slip_request(name->key) : NULL;
-  if (meant) pl_suggest(l->job, m, meant, "did you mean %s?", "war %s gemeint?", meant);
-  else if (l->choosing)
-    pl_suggest(l->job, m, NULL, "declare it:  coord %s", "vereinbaren:  coord %s", name->shown);
+  if (meant) pl_suggest(l->job, m, meant, PL_BOTH("did you mean %s?"), meant);
+  else if (l->choosing) pl_suggest(l->job, m, NULL, PL_BOTH("declare it:  coord %s"), name->shown);
   else if (best.key == NULL && coordinates == NULL)
-    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...",
-               name->shown);
+    pl_suggest(l->job, m, NULL, PL_BOTH("declare it:  param %s = ..."), name->shown);
   else if (best.key == NULL)
-    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...        (coordinates: %s)",
-               "vereinbaren:  param %s = ...        (Koordinaten: %s)", name->shown, coordinates);
+    pl_suggest(l->job, m, NULL, PL_BOTH("declare it:  param %s = ...        (coordinates: %s)"),
+               name->shown, coordinates);
   else if (coordinates == NULL)
-    pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
+    pl_suggest(l->job, m, best.shown, PL_BOTH("did you mean %s?"), best.shown);
   else
-    pl_suggest(l->job, m, best.shown, "did you mean %s?        (coordinates: %s)",
-               "war %s gemeint?        (Koordinaten: %s)", best.shown, coordinates);
+    pl_suggest(l->job, m, best.shown, PL_BOTH("did you mean %s?        (coordinates: %s)"),
+               best.shown, coordinates);
   return m;
 }
 
@@ -327,9 +317,9 @@ void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, co
     l->wrong++;
     return;
   }
-  pl_diagnostic* m = pl_lower_complain(
-      l, PL_E019, pl_ast_span(label), "%1$s %3$s is not declared%2$.0s",
-      "%2$s %3$s ist nicht vereinbart%1$.0s", en, de, label->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E019, pl_ast_span(label),
+                                       PL_BOTH("%1$s %3$s is not declared%2$.0s"), en, de,
+                                       label->shown);
   guess best = {0};
   pl_text all = pl_text_make(l->arena);
   if (l->n_guesses++ >= PL_MAX_GUESSES) n = 0;
@@ -337,13 +327,10 @@ void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, co
     try_guess(&best, label->key, known[i], known[i]);
     pl_text_addf(&all, "%s%s", i ? " " : "", known[i]);
   }
-  if (best.key)
-    pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
+  if (best.key) pl_suggest(l->job, m, best.shown, PL_BOTH("did you mean %s?"), best.shown);
   else if (n && n <= 10)
-    pl_suggest(l->job, m, NULL, "there are: %s", "es gibt: %s", pl_text_string(&all));
-  else
-    pl_suggest(l->job, m, NULL, "give the label in its own line first",
-               "die Marke zuerst in einer eigenen Zeile vergeben");
+    pl_suggest(l->job, m, NULL, PL_BOTH("there are: %s"), pl_text_string(&all));
+  else pl_suggest(l->job, m, NULL, PL_BOTH("give the label in its own line first"));
 }
 
 // ------------------------------------------------------------------------------------------- names
@@ -443,8 +430,8 @@ bool pl_scope_known(pl_lower* l, const pl_ast* name) {
 
 static pl_expr lower_index(pl_lower* l, const pl_ast* index) {
   if (index->kind == PL_AST_RANGE) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(index), "one index is needed here, not a range",
-                      "hier ist ein Index nötig, kein Bereich");
+    pl_lower_complain(l, PL_E025, pl_ast_span(index),
+                      PL_BOTH("one index is needed here, not a range"));
     return pl_poison();
   }
   return pl_lower_scalar(l, index);
@@ -464,25 +451,21 @@ static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* plac
                           || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
   if (!is_index && pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place),
-                                         "a unit belongs to a number or a declaration",
-                                         "eine Einheit gehört zu einer Zahl oder Vereinbarung");
-    pl_suggest(l->job, m, name->shown, "remove [%s]", "[%s] entfernen", text);
+                                         PL_BOTH("a unit belongs to a number or a declaration"));
+    pl_suggest(l->job, m, name->shown, PL_BOTH("remove [%s]"), text);
     return pl_quantity_bad();
   }
   pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
-                                       "%s is not a family, so it takes no index",
-                                       "%s ist keine Familie und hat keinen Index", name->shown);
-  pl_suggest(l->job, m, NULL, "declare  coord %s[1..N]", "vereinbaren:  coord %s[1..N]",
-             name->shown);
+                                       PL_BOTH("%s is not a family, so it takes no index"),
+                                       name->shown);
+  pl_suggest(l->job, m, NULL, PL_BOTH("declare  coord %s[1..N]"), name->shown);
   return pl_quantity_bad();
 }
 
 static pl_quantity no_derivative(pl_lower* l, const pl_ast* place, const char* shown) {
   pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place),
-                                       "%s does not move, so it has no derivative",
-                                       "%s bewegt sich nicht und hat keine Ableitung", shown);
-  pl_suggest(l->job, m, NULL, "declare  coord %s  if it moves",
-             "coord %s  vereinbaren, falls es sich bewegt", shown);
+                                       PL_BOTH("%s does not move, so it has no derivative"), shown);
+  pl_suggest(l->job, m, NULL, PL_BOTH("declare  coord %s  if it moves"), shown);
   return pl_quantity_bad();
 }
 
@@ -496,11 +479,10 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
   if (e->kind == PL_ENTITY_FAMILY) {
     if (index == NULL) {
       pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
-                                           "%s is a family, so it needs an index",
-                                           "%s ist eine Familie und braucht einen Index", e->shown);
+                                           PL_BOTH("%s is a family, so it needs an index"),
+                                           e->shown);
       pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown),
-                 "write %s[1] or, inside for, %s[i]", "schreibe %s[1] oder, in for, %s[i]",
-                 e->shown, e->shown);
+                 PL_BOTH("write %s[1] or, inside for, %s[i]"), e->shown, e->shown);
       return pl_quantity_bad();
     }
     pl_expr i = lower_index(l, index);
@@ -526,9 +508,9 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
       return q;
     }
     case PL_ENTITY_FUNCTION: {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place), "%s needs an argument",
-                                           "%s braucht ein Argument", e->shown);
-      pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", e->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place),
+                                           PL_BOTH("%s needs an argument"), e->shown);
+      pl_suggest(l->job, m, NULL, PL_BOTH("write %s(...)"), e->shown);
       return pl_quantity_bad();
     }
     default:
@@ -540,23 +522,21 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
 static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_ast* index, int dots,
                                       const pl_ast* place) {
   if (dots) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(place), "multipliers have no derivative here",
-                      "Multiplikatoren haben hier keine Ableitung");
+    pl_lower_complain(l, PL_E017, pl_ast_span(place),
+                      PL_BOTH("multipliers have no derivative here"));
     return pl_quantity_bad();
   }
   if (r->family && index == NULL) {
     pl_diagnostic* m = pl_lower_complain(
         l, PL_E025, pl_ast_span(place),
-        "%s is a family of constraints, so its multiplier needs an index",
-        "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index",
-        r->shown);
-    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), "write λ_%s[1]",
-               "schreibe λ_%s[1]", r->shown);
+        PL_BOTH("%s is a family of constraints, so its multiplier needs an index"), r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), PL_BOTH("write λ_%s[1]"),
+               r->shown);
     return pl_quantity_bad();
   }
   if (!r->family && index) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index",
-                      "%s ist keine Familie und hat keinen Index", r->shown);
+    pl_lower_complain(l, PL_E025, pl_ast_span(place),
+                      PL_BOTH("%s is not a family, so it takes no index"), r->shown);
     return pl_quantity_bad();
   }
   if (index == NULL) return pl_quantity_of(pl_sym(l->pool, r->lambda));
@@ -580,12 +560,10 @@ static pl_quantity several_multipliers(pl_lower* l, const pl_ast* name) {
     pl_text_addf(&all, "%sλ_%s", i ? ", " : "", l->rules.at[i].shown);
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E011, pl_ast_span(name),
-      l->rules.n ? "there are several multipliers" : "λ is not declared: there is no constraint",
-      l->rules.n ? "es gibt mehrere Multiplikatoren"
-                 : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
+      PL_BOTH(l->rules.n ? "there are several multipliers"
+                         : "λ is not declared: there is no constraint"));
   if (l->rules.n)
-    pl_suggest(l->job, m, NULL, "write %1$s, or name one in its constraint: with λ",
-               "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ",
+    pl_suggest(l->job, m, NULL, PL_BOTH("write %1$s, or name one in its constraint: with λ"),
                pl_text_string(&all));
   return pl_quantity_bad();
 }
@@ -595,8 +573,7 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   dots += name->number;
   if (dots > 2) {
     pl_lower_complain(l, PL_E017, pl_ast_span(place),
-                      "only first and second derivatives can be written",
-                      "nur erste und zweite Ableitungen lassen sich schreiben");
+                      PL_BOTH("only first and second derivatives can be written"));
     return pl_quantity_bad();
   }
   const pl_local* local = pl_scope_local(l, name->key);
@@ -639,8 +616,7 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
     return pl_quantity_of(pl_infinity(l->pool));
   if (!l->results && result_kind(name->key, &kind) && !pl_scope_lost(l, name->key)) {
     pl_diagnostic* m = pl_scope_unknown(l, name);
-    pl_because(l->job, m, "as a result it can stand in ask, plot and event only",
-               "als Ergebnis kann es nur in ask, plot und event stehen");
+    pl_because(l->job, m, PL_BOTH("as a result it can stand in ask, plot and event only"));
     return pl_quantity_bad();
   }
   pl_scope_unknown(l, name);

@@ -139,20 +139,19 @@ const char* pl_constraint_label(pl_lower* l, const pl_ast* label) {
       bool twice = n > 0 && strcmp(known[n - 1], l->rules.at[i].shown) == 0;
       if (!l->rules.at[i].generated && !twice) known[n++] = l->rules.at[i].shown;
     }
-    pl_scope_unknown_label(l, name, "constraint", "Zwangsbedingung", known, n);
+    pl_scope_unknown_label(l, name, PL_BOTH("constraint"), known, n);
     return NULL;
   }
   if (r->family && index == NULL) {
     pl_diagnostic* m = pl_lower_complain(
-        l, PL_E025, pl_ast_span(label), "%s is a family of constraints, so it needs an index",
-        "%s ist eine Familie von Zwangsbedingungen und braucht einen Index", r->shown);
-    pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", r->shown), "write %s[1]", "schreibe %s[1]",
-               r->shown);
+        l, PL_E025, pl_ast_span(label),
+        PL_BOTH("%s is a family of constraints, so it needs an index"), r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", r->shown), PL_BOTH("write %s[1]"), r->shown);
     return NULL;
   }
   if (!r->family && index) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is not a family, so it takes no index",
-                      "%s ist keine Familie und hat keinen Index", r->shown);
+    pl_lower_complain(l, PL_E025, pl_ast_span(label),
+                      PL_BOTH("%s is not a family, so it takes no index"), r->shown);
     return NULL;
   }
   return pl_label_text(l, name, index);
@@ -212,9 +211,8 @@ bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
   const pl_ast* one = pl_ast_single(node);
   if (q.n == 0 && !(one && one->kind == PL_AST_GROUP)) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
-                                         "a point is needed here, this is a number",
-                                         "hier ist ein Punkt nötig, das ist eine Zahl");
-    pl_suggest(l->job, m, NULL, "write (x, y)", "schreibe (x, y)");
+                                         PL_BOTH("a point is needed here, this is a number"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write (x, y)"));
     return false;
   }
   out->n = q.n ? q.n : 1;
@@ -227,8 +225,8 @@ static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body,
                                    const pl_point* centre, const pl_point* local) {
   pl_pool* q = l->pool;
   if (local->n != 3) {
-    pl_lower_complain(l, PL_E017, local->span, "a point on a body in space has three components",
-                      "ein Punkt an einem Körper im Raum hat drei Komponenten");
+    pl_lower_complain(l, PL_E017, local->span,
+                      PL_BOTH("a point on a body in space has three components"));
     return false;
   }
   p->point.n = 3;
@@ -251,16 +249,14 @@ static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
     return false;
   if (body == NULL || body->kind != PL_SITE_BODY) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on),
-                                         "a point can be fixed on a body only",
-                                         "ein Punkt kann nur an einem Körper fest sein");
-    pl_suggest(l->job, m, NULL, "write  point P at (x, y)  for a point in space",
-               "schreibe  point P at (x, y)  für einen Punkt im Raum");
+                                         PL_BOTH("a point can be fixed on a body only"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write  point P at (x, y)  for a point in space"));
     return false;
   }
   if (body->in_space) return point_on_body_in_space(l, p, body, &centre, &local);
   if (local.n != 2 || centre.n != 2) {
-    pl_lower_complain(l, PL_E017, local.span, "a point on a planar body has two components",
-                      "ein Punkt an einem ebenen Körper hat zwei Komponenten");
+    pl_lower_complain(l, PL_E017, local.span,
+                      PL_BOTH("a point on a planar body has two components"));
     return false;
   }
   pl_pool* q = l->pool;
@@ -302,8 +298,7 @@ bool pl_site_finish(pl_lower* l, pl_site* p) {
     pl_lower_complain(
         l, PL_E018,
         pl_ast_span(pl_ast_kid(p->statement, 0) ? pl_ast_kid(p->statement, 0) : p->statement),
-        "the place of %s leads back to itself", "der Ort von %s führt auf sich selbst zurück",
-        p->shown);
+        PL_BOTH("the place of %s leads back to itself"), p->shown);
     p->state = 3;
     return false;
   }
@@ -383,7 +378,7 @@ static void unknown_place(pl_lower* l, const pl_ast* name) {
     if (n == 0 || strcmp(known[n - 1], l->places.at[i]->shown) != 0)
       known[n++] = l->places.at[i]->shown;
   }
-  pl_scope_unknown_label(l, name, "mass, body or point", "Masse, Körper oder Punkt", known, n);
+  pl_scope_unknown_label(l, name, PL_BOTH("mass, body or point"), known, n);
 }
 
 bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out,
@@ -395,14 +390,13 @@ bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   }
   bool family = p->index_node != NULL || !pl_is_poison(p->index);
   if (family != (index != NULL)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(name),
-                                         family ? "%s is a family, so it needs an index"
-                                                : "%s is not a family, so it takes no index",
-                                         family ? "%s ist eine Familie und braucht einen Index"
-                                                : "%s ist keine Familie und hat keinen Index",
-                                         p->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E025, pl_ast_span(name),
+        PL_BOTH(family ? "%s is a family, so it needs an index"
+                       : "%s is not a family, so it takes no index"),
+        p->shown);
     if (family)
-      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), "write %s[1]", "schreibe %s[1]",
+      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), PL_BOTH("write %s[1]"),
                  p->shown);
     return false;
   }
@@ -418,8 +412,7 @@ bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   if (family_point(l, name, i, out, place)) return true;
   if (l->wrong == wrong) {
     pl_lower_complain(l, PL_E025, pl_span_join(pl_ast_span(name), pl_ast_span(index)),
-                      "this member of %s cannot be told from the text",
-                      "dieses Glied von %s lässt sich aus dem Text nicht bestimmen", p->shown);
+                      PL_BOTH("this member of %s cannot be told from the text"), p->shown);
   }
   return false;
 }

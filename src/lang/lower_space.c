@@ -49,12 +49,11 @@ static bool vanishes(pl_lower* l, pl_expr e) {
 static void complain_inertia(pl_lower* l, const pl_ast* node) {
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E017, pl_ast_span(node),
-      "the inertia of a body in space is three principal moments, (J1, J2, J3), or a matrix of "
-      "three rows",
-      "die Trägheit eines Körpers im Raum sind drei Hauptträgheitsmomente, (J1, J2, J3), oder eine "
-      "Matrix aus drei Zeilen");
-  pl_suggest(l->job, m, NULL, "write  ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz))",
-             "schreibe  ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz))");
+      PL_BOTH(
+          "the inertia of a body in space is three principal moments, (J1, J2, J3), or a matrix of "
+          "three rows"));
+  pl_suggest(l->job, m, NULL,
+             PL_BOTH("write  ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz))"));
 }
 
 // Symbols or numbers: what is the same on both sides of the diagonal is one entry.
@@ -67,12 +66,10 @@ static bool symmetric(pl_lower* l, pl_expr rows[9], const pl_ast* node) {
       if (vanishes(l, pl_sub(l->pool, a, b)) || x == y) continue;
       pl_diagnostic* m = pl_lower_complain(
           l, PL_E067, pl_ast_span(node),
-          "a matrix of inertia is symmetric: entries %d%d and %d%d are %s and %s",
-          "eine Trägheitsmatrix ist symmetrisch: die Elemente %d%d und %d%d sind %s und %s", j + 1,
+          PL_BOTH("a matrix of inertia is symmetric: entries %d%d and %d%d are %s and %s"), j + 1,
           i + 1, i + 1, j + 1, pl_expr_text(l->arena, l->pool, a),
           pl_expr_text(l->arena, l->pool, b));
-      pl_suggest(l->job, m, NULL, "write the same on both sides of the diagonal",
-                 "auf beiden Seiten der Diagonale dasselbe schreiben");
+      pl_suggest(l->job, m, NULL, PL_BOTH("write the same on both sides of the diagonal"));
       return false;
     }
   }
@@ -138,12 +135,10 @@ static bool is_needed(pl_lower* l, const pl_ast* axes, const pl_constraint* c, c
   if (fabs(x) < 1e-12) return false;
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E067, pl_ast_span(axes),
-      "the axes of a body are unit vectors at right angles: %s is %s, not %s",
-      "die Achsen eines Körpers sind Einheitsvektoren im rechten Winkel: %s ist %s, nicht %s",
+      PL_BOTH("the axes of a body are unit vectors at right angles: %s is %s, not %s"),
       part[0] == 'u' ? "|q|²" : pl_format(l->arena, "e%c·e%c", part[0], part[1]),
       pl_expr_text(l->arena, l->pool, c->left), pl_expr_text(l->arena, l->pool, c->right));
-  pl_suggest(l->job, m, NULL, "give unit vectors, or coordinates",
-             "Einheitsvektoren oder Koordinaten angeben");
+  pl_suggest(l->job, m, NULL, PL_BOTH("give unit vectors, or coordinates"));
   return false;
 }
 
@@ -194,9 +189,8 @@ void pl_space_body(pl_lower* l, const pl_ast* s, pl_site* p, pl_name name) {
   if (!read_inertia(l, pl_ast_kid(s, 2), b.inertia) || pl_is_poison(b.mass)) return;
   if (p->point.n != 3) {
     pl_diagnostic* m = pl_lower_complain(
-        l, PL_E017, p->point.span, "the centre of a body in space has three components",
-        "der Mittelpunkt eines Körpers im Raum hat drei Komponenten");
-    pl_suggest(l->job, m, NULL, "write  at (x, y, z)", "schreibe  at (x, y, z)");
+        l, PL_E017, p->point.span, PL_BOTH("the centre of a body in space has three components"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write  at (x, y, z)"));
     return;
   }
   memcpy(b.axes, p->attitude.at, sizeof b.axes);
@@ -231,10 +225,8 @@ bool pl_space_torque(pl_lower* l, const pl_ast* s, pl_load* out) {
   if (v.n != 3) {
     pl_diagnostic* m = pl_lower_complain(
         l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
-        "a torque on a body in space is a vector with three components",
-        "ein Moment auf einen Körper im Raum ist ein Vektor mit drei Komponenten");
-    pl_suggest(l->job, m, NULL, "write  torque (Mx, My, Mz) on %s",
-               "schreibe  torque (Mx, My, Mz) on %s", body->shown);
+        PL_BOTH("a torque on a body in space is a vector with three components"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write  torque (Mx, My, Mz) on %s"), body->shown);
     return false;
   }
   out->kind = PL_L_COUPLE;

@@ -240,15 +240,15 @@ bool pl_outline_name_is_free(const pl_outline* o, const char* spelling, const ch
   size_t bad, n = strlen(spelling);
   bool starts = n > 0 && !(spelling[0] >= '0' && spelling[0] <= '9') && spelling[0] != '_';
   why[PL_ENGLISH] = "this is no name: letters, then letters, digits and _";
-  why[PL_GERMAN] = "das ist kein Name: Buchstaben, dann Buchstaben, Ziffern und _";
+  why[PL_GERMAN] = pl_german("this is no name: letters, then letters, digits and _");
   if (!starts || strpbrk(spelling, " \t\n\r#\"'()[]{}+-*/^=<>,;:.!")) return false;
   if (!pl_spell(o->arena, o->interned, spelling, n, &s, &bad) || s.dots) return false;
   why[PL_ENGLISH] = "this is a word of the language";
-  why[PL_GERMAN] = "das ist ein Wort der Sprache";
+  why[PL_GERMAN] = pl_german("this is a word of the language");
   if (pl_word_reserved(s.key) || pl_word_function(s.key) || strcmp(s.key, "t") == 0) return false;
   if (strcmp(s.key, "pi") == 0) return false;
   why[PL_ENGLISH] = "another thing has this name";
-  why[PL_GERMAN] = "etwas anderes heißt schon so";
+  why[PL_GERMAN] = pl_german("another thing has this name");
   for (int i = 0; i < o->named.n; i++) {
     if (o->named.at[i].key == s.key) return false;
   }

@@ -21,8 +21,7 @@ static void adopt(pl_parse* p, pl_ast* parent, char op, pl_ast* kid) {
   if (kid->depth + 1 > parent->depth) parent->depth = kid->depth + 1;
   if (parent->depth <= MAX_TREE) return;
   if (!p->said) {
-    pl_complain(p->job, PL_E006, pl_ast_span(parent), "this is nested too deeply",
-                "das ist zu tief verschachtelt");
+    pl_complain(p->job, PL_E006, pl_ast_span(parent), PL_BOTH("this is nested too deeply"));
   }
   p->said = true;
   parent->kids.at[parent->kids.n - 1] = pl_ast_make(p, PL_AST_BROKEN,
@@ -336,9 +335,8 @@ static void complain_unclosed(feeder* f) {
   const pl_token* t = token_at(p, f->open[f->n_open - 1]);
   if (!p->said) {
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
-                                   "this bracket is not closed",
-                                   "diese Klammer wird nicht geschlossen");
-    pl_suggest(p->job, m, NULL, "add %s", "%s ergänzen", t->kind == '(' ? ")" : "]");
+                                   PL_BOTH("this bracket is not closed"));
+    pl_suggest(p->job, m, NULL, PL_BOTH("add %s"), t->kind == '(' ? ")" : "]");
   }
   p->said = true;
 }
@@ -362,8 +360,7 @@ static void open_bracket(feeder* f, int i) {
     const pl_token* t = token_at(p, i);
     if (!p->said) {
       pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end},
-                  "more than %d brackets inside each other", "mehr als %d Klammern ineinander",
-                  PL_MAX_DEPTH);
+                  PL_BOTH("more than %d brackets inside each other"), PL_MAX_DEPTH);
     }
     p->said = f->skip = true;
     return;
@@ -383,9 +380,8 @@ static void close_bracket(feeder* f, int i) {
   }
   if (!p->said) {
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
-                                   "nothing was opened that this bracket could close",
-                                   "nichts wurde geöffnet, das diese Klammer schließen könnte");
-    pl_suggest(p->job, m, "", "remove it", "entfernen");
+                                   PL_BOTH("nothing was opened that this bracket could close"));
+    pl_suggest(p->job, m, "", PL_BOTH("remove it"));
     if (f->n_open) {
       const pl_token* o = token_at(p, f->open[f->n_open - 1]);
       pl_report_label(p->job->diagnostics, m, (pl_span){p->source, o->begin, o->end}, "");
@@ -399,16 +395,15 @@ static void open_brace(feeder* f, int i) {
   if (f->braces >= PL_MAX_BLOCKS && !p->said) {
     const pl_token* t = token_at(p, i);
     pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end},
-                "more than %d blocks inside each other", "mehr als %d Blöcke ineinander",
-                PL_MAX_BLOCKS);
+                PL_BOTH("more than %d blocks inside each other"), PL_MAX_BLOCKS);
     p->said = true;
   }
   if (f->statement == TOK_FOR && !p->said && f->n_open == 0) push(f, '{', i);
   if (f->statement != TOK_FOR || p->said || f->n_open) {
     if (!p->said) {
       const pl_token* t = token_at(p, i);
-      pl_complain(p->job, PL_E001, (pl_span){p->source, t->begin, t->end}, "{ belongs to for only",
-                  "{ gehört nur zu for");
+      pl_complain(p->job, PL_E001, (pl_span){p->source, t->begin, t->end},
+                  PL_BOTH("{ belongs to for only"));
       p->said = true;
     }
     p->lost_braces++;
@@ -430,9 +425,8 @@ static void close_brace(feeder* f, int i) {
   if (f->braces == 0) {
     const pl_token* t = token_at(p, i);
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
-                                   "nothing was opened that this brace could close",
-                                   "nichts wurde geöffnet, das diese Klammer schließen könnte");
-    pl_suggest(p->job, m, "", "remove it", "entfernen");
+                                   PL_BOTH("nothing was opened that this brace could close"));
+    pl_suggest(p->job, m, "", PL_BOTH("remove it"));
     return;
   }
   f->braces--;
@@ -447,30 +441,25 @@ static void unknown_statement(feeder* f, int i) {
   const pl_token* t = token_at(p, i);
   pl_span span = {p->source, t->begin, t->end};
   if (!p->said && t->kind != TOK_NAME) {
-    pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "a statement begins with a word",
-                                   "eine Anweisung beginnt mit einem Wort");
-    pl_suggest(p->job, m, NULL, "begin with param, coord, mass, constraint, ...",
-               "beginne mit param, coord, mass, constraint, ...");
+    pl_diagnostic* m = pl_complain(p->job, PL_E001, span,
+                                   PL_BOTH("a statement begins with a word"));
+    pl_suggest(p->job, m, NULL, PL_BOTH("begin with param, coord, mass, constraint, ..."));
   } else if (!p->said) {
     const char* word = pl_source_text(p->arena, span);
-    pl_diagnostic* m = pl_complain(p->job, PL_E004, span, "%s is not a statement",
-                                   "%s ist keine Anweisung", word);
+    pl_diagnostic* m = pl_complain(p->job, PL_E004, span, PL_BOTH("%s is not a statement"), word);
     const char* near = pl_slip_statement(t->key);
     if (!near) near = pl_word_near_statement(t->key);
     bool equation = false;
     for (int k = i; token_at(p, k)->kind != TOK_EOL && token_at(p, k)->kind != 0; k++)
       equation |= token_at(p, k)->kind == '=';
-    if (near) pl_suggest(p->job, m, near, "did you mean %s?", "war %s gemeint?", near);
+    if (near) pl_suggest(p->job, m, near, PL_BOTH("did you mean %s?"), near);
     else if (token_at(p, i + 1)->kind == '=')
-      pl_suggest(p->job, m, NULL, "write  param %1$s = ...  or  let %1$s = ...",
-                 "schreibe  param %1$s = ...  oder  let %1$s = ...", word);
-    else if (equation)
-      pl_suggest(p->job, m, NULL, "write  constraint %s ... = ...",
-                 "schreibe  constraint %s ... = ...", word);
+      pl_suggest(p->job, m, NULL, PL_BOTH("write  param %1$s = ...  or  let %1$s = ..."), word);
+    else if (equation) pl_suggest(p->job, m, NULL, PL_BOTH("write  constraint %s ... = ..."), word);
     else
-      pl_suggest(p->job, m, NULL,
-                 "statements are param, coord, let, mass, force, constraint, init, ask, ...",
-                 "Anweisungen sind param, coord, let, mass, force, constraint, init, ask, ...");
+      pl_suggest(
+          p->job, m, NULL,
+          PL_BOTH("statements are param, coord, let, mass, force, constraint, init, ask, ..."));
   }
   p->said = f->skip = true;
 }
@@ -536,8 +525,7 @@ static bool chain_too_long(feeder* f, int i) {
   if (f->chain <= MAX_CHAIN) return false;
   if (!f->p->said) {
     pl_complain(f->p->job, PL_E006, (pl_span){f->p->source, t->begin, t->end},
-                "more than %d powers or signs in a row",
-                "mehr als %d Potenzen oder Vorzeichen hintereinander", MAX_CHAIN);
+                PL_BOTH("more than %d powers or signs in a row"), MAX_CHAIN);
   }
   f->p->said = f->skip = true;
   return true;
@@ -590,9 +578,8 @@ static void complain_open_block(feeder* f) {
   if (f->braces && !p->said) {
     const pl_token* t = token_at(p, f->brace[f->braces - 1]);
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
-                                   "a block of for is not closed",
-                                   "ein Block von for wird nicht geschlossen");
-    pl_suggest(p->job, m, NULL, "add }", "} ergänzen");
+                                   PL_BOTH("a block of for is not closed"));
+    pl_suggest(p->job, m, NULL, PL_BOTH("add }"));
   }
   // close what is open, so that the rest of the file counts
   for (; f->braces; f->braces--) {

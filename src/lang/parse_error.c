@@ -69,41 +69,42 @@ const char* pl_source_text(pl_arena* a, pl_span s) {
 // -------------------------------------------------------------------------------- words for tokens
 typedef struct named {
   int token;
-  const char *en, *de;
+  const char* word;
 } named;
 static const named plain[] = {
-    {TOK_TEXT, "a text in quotation marks", "ein Text in Anführungszeichen"},
-    {TOK_UNIT, "a unit in [ ]", "eine Einheit in [ ]"},
-    {TOK_EOL, "the end of the line", "das Zeilenende"},
-    {TOK_ARROW, "->", "->"},
-    {TOK_RANGE, "..", ".."},
-    {TOK_MUCH, ">>", ">>"},
-    {'=', "=", "="},
-    {':', "a colon", "ein Doppelpunkt"},
-    {',', "a comma", "ein Komma"},
-    {'(', "(", "("},
-    {')', ")", ")"},
-    {'[', "[", "["},
-    {']', "]", "]"},
-    {'{', "{", "{"},
-    {'}', "}", "}"},
-    {TOK_WORD_MASS, "mass", "mass"},
-    {TOK_WORD_INERTIA, "inertia", "inertia"},
-    {TOK_WORD_ANGLE, "angle", "angle"},
-    {TOK_WORD_AXES, "axes", "axes"},
-    {TOK_WORD_STATIC, "static", "static"},
-    {TOK_WORD_SURFACE, "surface", "surface"},
-    {TOK_WORD_INTEGER, "integer", "integer"},
-    {TOK_WORD_STOP, "stop", "stop"},
-    {TOK_WORD_RECORD, "record", "record"},
-    {TOK_WORD_RELEASE, "release", "release"},
-    {TOK_WORD_ATTACH, "attach", "attach"},
-    {TOK_REDUNDANT, "redundant ok", "redundant ok"},
+    {TOK_TEXT, PL_KEY("a text in quotation marks")},
+    {TOK_UNIT, PL_KEY("a unit in [ ]")},
+    {TOK_EOL, PL_KEY("the end of the line")},
+    {TOK_ARROW, "->"},
+    {TOK_RANGE, ".."},
+    {TOK_MUCH, ">>"},
+    {'=', "="},
+    {':', PL_KEY("a colon")},
+    {',', PL_KEY("a comma")},
+    {'(', "("},
+    {')', ")"},
+    {'[', "["},
+    {']', "]"},
+    {'{', "{"},
+    {'}', "}"},
+    {TOK_WORD_MASS, "mass"},
+    {TOK_WORD_INERTIA, "inertia"},
+    {TOK_WORD_ANGLE, "angle"},
+    {TOK_WORD_AXES, "axes"},
+    {TOK_WORD_STATIC, "static"},
+    {TOK_WORD_SURFACE, "surface"},
+    {TOK_WORD_INTEGER, "integer"},
+    {TOK_WORD_STOP, "stop"},
+    {TOK_WORD_RECORD, "record"},
+    {TOK_WORD_RELEASE, "release"},
+    {TOK_WORD_ATTACH, "attach"},
+    {TOK_REDUNDANT, "redundant ok"},
 };
 
 static const char* word_for(int token, bool german) {
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {
-    if (plain[i].token == token) return german ? plain[i].de : plain[i].en;
+    if (plain[i].token == token)
+      return pl_in_language(german ? PL_GERMAN : PL_ENGLISH, plain[i].word);
   }
 #define PL_RESERVED(t, text) \
   if (token == TOK_##t) return text;
@@ -126,11 +127,11 @@ static const char* list_expected(pl_arena* a, const int* expected, int n, bool g
   bool expression = has(expected, n, TOK_NUMBER) && has(expected, n, TOK_NAME)
                     && !has(expected, n, '/');
   bool operators = has(expected, n, '/');
-  if (expression) words[n_words++] = german ? "ein Ausdruck" : "an expression";
+  if (expression) words[n_words++] = german ? pl_german("an expression") : "an expression";
   else if (has(expected, n, TOK_NAME) && !operators)
-    words[n_words++] = german ? "ein Name" : "a name";
+    words[n_words++] = german ? pl_german("a name") : "a name";
   else if (has(expected, n, TOK_NUMBER) && !operators)
-    words[n_words++] = german ? "eine Zahl" : "a number";
+    words[n_words++] = german ? pl_german("a number") : "a number";
   for (int i = 0; i < n && n_words < 60; i++) {
     int t = expected[i];
     bool part_of_expression = (expression || operators)
@@ -142,11 +143,12 @@ static const char* list_expected(pl_arena* a, const int* expected, int n, bool g
     if (w == NULL || pl_word_item(w)) continue;
     words[n_words++] = w;
   }
-  if (n_words == 0 && operators) words[n_words++] = german ? "ein Rechenzeichen" : "an operator";
+  if (n_words == 0 && operators)
+    words[n_words++] = german ? pl_german("an operator") : "an operator";
   if (n_words == 0 && has(expected, n, TOK_EOL)) words[n_words++] = word_for(TOK_EOL, german);
   if (n_words == 0 || n_words > 8) return NULL;
   for (int i = 0; i < n_words; i++) {
-    if (i > 0) pl_text_add(&out, i + 1 < n_words ? ", " : german ? " oder " : " or ");
+    if (i > 0) pl_text_add(&out, i + 1 < n_words ? ", " : german ? pl_german(" or ") : " or ");
     pl_text_add(&out, words[i]);
   }
   return pl_text_string(&out);
@@ -185,17 +187,16 @@ static bool decimal_comma(pl_parse* p) {
   const char* fixed = pl_format(p->arena, "%s.%s", whole->text, part->text);
   const pl_token* after = &p->tokens->list.at[i + 2 < p->tokens->list.n ? i + 2 : i + 1];
   pl_diagnostic* m = pl_complain(p->job, PL_E003, (pl_span){p->source, whole->begin, part->end},
-                                 "decimal comma", "Dezimalkomma");
+                                 PL_BOTH("decimal comma"));
   const char* degree = after->kind == TOK_DEGREE ? "°" : "";
   // 1,000 may be a thousand
   if (strlen(part->text) == 3 && strlen(whole->text) <= 3 && whole->text[0] != '0') {
-    pl_suggest(p->job, m, NULL, "write %1$s%3$s, or %2$s%3$s if a thousand is meant",
-               "schreibe %1$s%3$s, oder %2$s%3$s, falls Tausend gemeint ist", fixed,
-               pl_format(p->arena, "%s%s", whole->text, part->text), degree);
+    pl_suggest(p->job, m, NULL, PL_BOTH("write %1$s%3$s, or %2$s%3$s if a thousand is meant"),
+               fixed, pl_format(p->arena, "%s%s", whole->text, part->text), degree);
     return true;
   }
-  pl_suggest(p->job, m, fixed, "write %s%s        (Dezimalpunkt statt Komma)",
-             "schreibe %s%s        (Dezimalpunkt statt Komma)", fixed, degree);
+  pl_suggest(p->job, m, fixed, PL_BOTH("write %s%s        (Dezimalpunkt statt Komma)"), fixed,
+             degree);
   return true;
 }
 
@@ -206,9 +207,8 @@ static bool reserved_name(pl_parse* p, const int* expected, int n) {
   const pl_token* next = token_near(p, p->at, 1);
   if (has(expected, n, '/') && next->kind == TOK_NAME) return false;
   pl_diagnostic* m = pl_complain(p->job, PL_E013, (pl_span){p->source, t->begin, t->end},
-                                 "%s is a reserved word", "%s ist ein reserviertes Wort", t->key);
-  pl_suggest(p->job, m, NULL, "choose another name, such as %s1",
-             "einen anderen Namen wählen, etwa %s1", t->key);
+                                 PL_BOTH("%s is a reserved word"), t->key);
+  pl_suggest(p->job, m, NULL, PL_BOTH("choose another name, such as %s1"), t->key);
   return true;
 }
 
@@ -219,20 +219,18 @@ static bool line_ends_early(pl_parse* p, const int* expected, int n) {
   pl_span span = {p->source, before->begin, before->end};
   pl_diagnostic* m;
   if (before->kind == ',') {
-    m = pl_complain(p->job, PL_E001, span, "something is missing after the comma",
-                    "hinter dem Komma fehlt etwas");
-    pl_suggest(p->job, m, "", "remove the comma", "das Komma entfernen");
+    m = pl_complain(p->job, PL_E001, span, PL_BOTH("something is missing after the comma"));
+    pl_suggest(p->job, m, "", PL_BOTH("remove the comma"));
     return true;
   }
   span.begin = span.end;
   if (before->kind == TOK_NAME && strcmp(before->key, "for") == 0) span.begin = before->begin;
-  m = pl_complain(p->job, PL_E001, span, "the line ends too early", "die Zeile endet zu früh");
+  m = pl_complain(p->job, PL_E001, span, PL_BOTH("the line ends too early"));
   const char* en = list_expected(p->arena, expected, n, false);
   if (en)
     pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en,
                list_expected(p->arena, expected, n, true));
-  if (en && pl_word_reserved(en))
-    pl_suggest(p->job, m, NULL, "add  %s ...", "%s ...  ergänzen", en);
+  if (en && pl_word_reserved(en)) pl_suggest(p->job, m, NULL, PL_BOTH("add  %s ..."), en);
   return true;
 }
 
@@ -244,13 +242,13 @@ static bool missing_equals(pl_parse* p, const int* expected, int n) {
   const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
   const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
   pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end},
-                                 "an = is missing after %s", "hinter %s fehlt ein =", left);
+                                 PL_BOTH("an = is missing after %s"), left);
   if (t->kind == TOK_NAME && !has(expected, n, TOK_NAME)) {
-    pl_suggest(p->job, m, NULL, "write %1$s = %2$s ...  or, for two names,  %1$s, %2$s",
-               "schreibe %1$s = %2$s ...  oder, bei zwei Namen,  %1$s, %2$s", left, right);
+    pl_suggest(p->job, m, NULL, PL_BOTH("write %1$s = %2$s ...  or, for two names,  %1$s, %2$s"),
+               left, right);
   } else {
-    pl_suggest(p->job, m, pl_format(p->arena, "%s = %s", left, right), "write %s = %s",
-               "schreibe %s = %s", left, right);
+    pl_suggest(p->job, m, pl_format(p->arena, "%s = %s", left, right), PL_BOTH("write %s = %s"),
+               left, right);
   }
   return true;
 }
@@ -263,10 +261,9 @@ static bool missing_comma(pl_parse* p, const int* expected, int n) {
   const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
   const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
   pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end},
-                                 "a comma is missing between %s and %s",
-                                 "zwischen %s und %s fehlt ein Komma", left, right);
-  pl_suggest(p->job, m, pl_format(p->arena, "%s, %s", left, right), "write %s, %s",
-             "schreibe %s, %s", left, right);
+                                 PL_BOTH("a comma is missing between %s and %s"), left, right);
+  pl_suggest(p->job, m, pl_format(p->arena, "%s, %s", left, right), PL_BOTH("write %s, %s"), left,
+             right);
   return true;
 }
 
@@ -280,8 +277,7 @@ void pl_parse_complain(pl_parse* p, const int* expected, int n) {
   const pl_token* t = &p->tokens->list.at[p->at];
   pl_span span = {p->source, t->begin, t->end};
   const char* text = pl_source_text(p->arena, span);
-  pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "%s does not fit here",
-                                 "%s passt hier nicht", text);
+  pl_diagnostic* m = pl_complain(p->job, PL_E001, span, PL_BOTH("%s does not fit here"), text);
   const char* en = list_expected(p->arena, expected, n, false);
   if (en)
     pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en,

@@ -108,10 +108,9 @@ static bool rod_without_mass(pl_parse* p) {
   if (p->kinds[first] != TOK_ROD || !is(t, "between") || is(token(p, first + 1), "mass"))
     return false;
   int mass = token(p, p->at - 1)->kind == ':' ? p->at : first + 1;
-  pl_diagnostic* m = at_token(p, "the mass of a rod has its word",
-                              "die Masse eines Stabes hat ihr Wort");
-  pl_suggest(p->job, m, NULL, "write  rod mass %1$s %2$s", "schreibe  rod mass %1$s %2$s",
-             text(p, mass, p->at), text(p, p->at, end_of_line(p, p->at)));
+  pl_diagnostic* m = at_token(p, PL_BOTH("the mass of a rod has its word"));
+  pl_suggest(p->job, m, NULL, PL_BOTH("write  rod mass %1$s %2$s"), text(p, mass, p->at),
+             text(p, p->at, end_of_line(p, p->at)));
   return true;
 }
 
@@ -129,10 +128,9 @@ static bool event_without_shape(pl_parse* p) {
   const char* action = arrow < end ? text(p, arrow + 1, end) : "stop";
   bool named = token(p, first + 1)->kind == TOK_NAME && when > first + 1;
   const char* name = named ? token(p, first + 1)->shown : "e";
-  pl_diagnostic* m = at_token(p, "an event has a name, a condition and an action",
-                              "ein Ereignis hat einen Namen, eine Bedingung und eine Handlung");
-  pl_suggest(p->job, m, NULL, "write  event %s: when %s -> %s", "schreibe  event %s: when %s -> %s",
-             name, text(p, when + 1, arrow), action);
+  pl_diagnostic* m = at_token(p, PL_BOTH("an event has a name, a condition and an action"));
+  pl_suggest(p->job, m, NULL, PL_BOTH("write  event %s: when %s -> %s"), name,
+             text(p, when + 1, arrow), action);
   return true;
 }
 
@@ -142,8 +140,8 @@ static bool range_in_words(pl_parse* p) {
   if (p->kinds[p->statement_first] != TOK_SIMULATE || p->at == p->statement_first + 1) return false;
   if (!is(t, "to") && !is(t, "bis") && !is(t, "until")) return false;
   int end = end_of_line(p, p->at);
-  pl_diagnostic* m = at_token(p, "%s does not join two times", "%s verbindet keine zwei Zeiten");
-  pl_suggest(p->job, m, "..", "write  simulate %s..%s", "schreibe  simulate %s..%s",
+  pl_diagnostic* m = at_token(p, PL_BOTH("%s does not join two times"));
+  pl_suggest(p->job, m, "..", PL_BOTH("write  simulate %s..%s"),
              text(p, p->statement_first + 1, p->at), text(p, p->at + 1, end));
   return true;
 }
@@ -169,10 +167,9 @@ static bool place_of_request(pl_parse* p) {
   if (is(t, "where") && !force) return false;
   // it has an `at` of its own
   if (!force && token(p, from)->kind == TOK_NAME && pl_word_item(token(p, from)->key)) return false;
-  pl_diagnostic* m = at_token(p, "%s does not name a place of the motion",
-                              "%s nennt keine Stelle der Bewegung");
+  pl_diagnostic* m = at_token(p, PL_BOTH("%s does not name a place of the motion"));
   if (force) what = pl_format(p->arena, "normal(%s)", text(p, from + 2, p->at));
-  pl_suggest(p->job, m, force ? NULL : "where", "write  %s where %s", "schreibe  %s where %s", what,
+  pl_suggest(p->job, m, force ? NULL : "where", PL_BOTH("write  %s where %s"), what,
              text(p, p->at + 1, end));
   return true;
 }
@@ -189,9 +186,9 @@ static bool request_in_words(pl_parse* p) {
   if (force) meant = pl_format(p->arena, "%s %s", force, text(p, p->at + 1, end_of_line(p, p->at)));
   if (!meant) return false;
   pl_span span = {p->source, before->begin, next->end};
-  pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "%s is no request", "%s ist keine Frage",
+  pl_diagnostic* m = pl_complain(p->job, PL_E001, span, PL_BOTH("%s is no request"),
                                  pl_source_text(p->arena, span));
-  pl_suggest(p->job, m, meant, "did you mean  %s ?", "war  %s  gemeint?", meant);
+  pl_suggest(p->job, m, meant, PL_BOTH("did you mean  %s ?"), meant);
   return true;
 }
 

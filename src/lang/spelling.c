@@ -243,53 +243,52 @@ bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled*
 // ------------------------------------------------------------------------------------- look-alikes
 typedef struct look {
   uint32_t code;
-  const char *meant, *en, *de;
+  const char *meant, *what;
 } look;
 static const look looks[] = {
-    {0x2013, "-", "an en dash", "ein Halbgeviertstrich"},
-    {0x2014, "-", "an em dash", "ein Gedankenstrich"},
-    {0x2010, "-", "a hyphen", "ein Bindestrich"},
-    {0x2011, "-", "a hyphen", "ein Bindestrich"},
-    {0xad, "", "an invisible hyphen", "ein unsichtbarer Trennstrich"},
-    {0x200b, "", "an invisible blank", "ein unsichtbares Leerzeichen"},
-    {0x200c, "", "an invisible character", "ein unsichtbares Zeichen"},
-    {0x200d, "", "an invisible character", "ein unsichtbares Zeichen"},
-    {0xfeff, "", "an invisible byte order mark", "eine unsichtbare Bytefolgemarke"},
-    {0x2060, "", "an invisible character", "ein unsichtbares Zeichen"},
-    {0x2019, "'", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-    {0x2018, "'", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-    {0xb4, "'", "an acute accent", "ein Akzent"},
-    {'`', "'", "a grave accent", "ein Akzent"},
-    {0x201c, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-    {0x201d, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-    {0x201e, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-    {0xf7, "/", "a division sign", "ein Divisionszeichen"},
-    {0x2215, "/", "a division slash", "ein Bruchstrich"},
-    {0x2044, "/", "a fraction slash", "ein Bruchstrich"},
-    {0x2026, "..", "an ellipsis", "ein Auslassungszeichen"},
-    {0x2217, "*", "an asterisk operator", "ein Sternoperator"},
-    {0xba, "°", "an ordinal sign", "ein Ordnungszeichen"},
-    {0x2da, "°", "a ring", "ein Ring"},
-    {0x2202, NULL, "a partial derivative; diff(f, x) derives",
-     "eine partielle Ableitung; diff(f, x) leitet ab"},
-    {0x222b, NULL, "an integral sign", "ein Integralzeichen"},
-    {0x3bf, "o", "a Greek omicron", "ein griechisches Omikron"},
-    {0x391, "A", "a Greek Alpha", "ein griechisches Alpha"},
-    {0x392, "B", "a Greek Beta", "ein griechisches Beta"},
-    {0x395, "E", "a Greek Epsilon", "ein griechisches Epsilon"},
-    {0x396, "Z", "a Greek Zeta", "ein griechisches Zeta"},
-    {0x397, "H", "a Greek Eta", "ein griechisches Eta"},
-    {0x399, "I", "a Greek Iota", "ein griechisches Iota"},
-    {0x39a, "K", "a Greek Kappa", "ein griechisches Kappa"},
-    {0x39c, "M", "a Greek Mu", "ein griechisches My"},
-    {0x39d, "N", "a Greek Nu", "ein griechisches Ny"},
-    {0x39f, "O", "a Greek Omicron", "ein griechisches Omikron"},
-    {0x3a1, "P", "a Greek Rho", "ein griechisches Rho"},
-    {0x3a4, "T", "a Greek Tau", "ein griechisches Tau"},
-    {0x3a5, "Y", "a Greek Upsilon", "ein griechisches Ypsilon"},
-    {0x3a7, "X", "a Greek Chi", "ein griechisches Chi"},
-    {0x212a, "K", "a Kelvin sign", "ein Kelvinzeichen"},
-    {0x212b, "A", "an Angstrom sign", "ein Ångström-Zeichen"},
+    {0x2013, "-", PL_KEY("an en dash")},
+    {0x2014, "-", PL_KEY("an em dash")},
+    {0x2010, "-", PL_KEY("a hyphen")},
+    {0x2011, "-", PL_KEY("a hyphen")},
+    {0xad, "", PL_KEY("an invisible hyphen")},
+    {0x200b, "", PL_KEY("an invisible blank")},
+    {0x200c, "", PL_KEY("an invisible character")},
+    {0x200d, "", PL_KEY("an invisible character")},
+    {0xfeff, "", PL_KEY("an invisible byte order mark")},
+    {0x2060, "", PL_KEY("an invisible character")},
+    {0x2019, "'", PL_KEY("a typographic quotation mark")},
+    {0x2018, "'", PL_KEY("a typographic quotation mark")},
+    {0xb4, "'", PL_KEY("an acute accent")},
+    {'`', "'", PL_KEY("a grave accent")},
+    {0x201c, "\"", PL_KEY("a typographic quotation mark")},
+    {0x201d, "\"", PL_KEY("a typographic quotation mark")},
+    {0x201e, "\"", PL_KEY("a typographic quotation mark")},
+    {0xf7, "/", PL_KEY("a division sign")},
+    {0x2215, "/", PL_KEY("a division slash")},
+    {0x2044, "/", PL_KEY("a fraction slash")},
+    {0x2026, "..", PL_KEY("an ellipsis")},
+    {0x2217, "*", PL_KEY("an asterisk operator")},
+    {0xba, "°", PL_KEY("an ordinal sign")},
+    {0x2da, "°", PL_KEY("a ring")},
+    {0x2202, NULL, PL_KEY("a partial derivative; diff(f, x) derives")},
+    {0x222b, NULL, PL_KEY("an integral sign")},
+    {0x3bf, "o", PL_KEY("a Greek omicron")},
+    {0x391, "A", PL_KEY("a Greek Alpha")},
+    {0x392, "B", PL_KEY("a Greek Beta")},
+    {0x395, "E", PL_KEY("a Greek Epsilon")},
+    {0x396, "Z", PL_KEY("a Greek Zeta")},
+    {0x397, "H", PL_KEY("a Greek Eta")},
+    {0x399, "I", PL_KEY("a Greek Iota")},
+    {0x39a, "K", PL_KEY("a Greek Kappa")},
+    {0x39c, "M", PL_KEY("a Greek Mu")},
+    {0x39d, "N", PL_KEY("a Greek Nu")},
+    {0x39f, "O", PL_KEY("a Greek Omicron")},
+    {0x3a1, "P", PL_KEY("a Greek Rho")},
+    {0x3a4, "T", PL_KEY("a Greek Tau")},
+    {0x3a5, "Y", PL_KEY("a Greek Upsilon")},
+    {0x3a7, "X", PL_KEY("a Greek Chi")},
+    {0x212a, "K", PL_KEY("a Kelvin sign")},
+    {0x212b, "A", PL_KEY("an Angstrom sign")},
 };
 enum { N_LOOKS = sizeof looks / sizeof looks[0] };
 
@@ -304,14 +303,13 @@ static const struct {
     {0x456, 'i'}, {0x458, 'j'}, {0x455, 's'},
 };
 
-const char* pl_look_alike(uint32_t c, const char* what[2]) {
+const char* pl_look_alike(uint32_t c, const char** what) {
   static const char* const ascii[] = {" ", "!", "\"", "#", "$", "%", "&", "'", "(", ")", "*",
                                       "+", ",", "-",  ".", "/", "0", "1", "2", "3", "4", "5",
                                       "6", "7", "8",  "9", ":", ";", "<", "=", ">"};
   for (int i = 0; i < N_LOOKS; i++) {
     if (looks[i].code != c) continue;
-    what[0] = looks[i].en;
-    what[1] = looks[i].de;
+    *what = looks[i].what;
     return looks[i].meant;
   }
   for (size_t i = 0; i < sizeof cyrillic / sizeof cyrillic[0]; i++) {
@@ -320,13 +318,11 @@ const char* pl_look_alike(uint32_t c, const char* what[2]) {
         "A\0B\0C\0D\0E\0F\0G\0H\0I\0J\0K\0L\0M\0N\0O\0P\0Q\0R\0S\0T\0U\0V\0W\0X\0Y\0Z\0"
         "a\0b\0c\0d\0e\0f\0g\0h\0i\0j\0k\0l\0m\0n\0o\0p\0q\0r\0s\0t\0u\0v\0w\0x\0y\0z";
     char m = cyrillic[i].meant;
-    what[0] = "a Cyrillic letter";
-    what[1] = "ein kyrillischer Buchstabe";
+    *what = PL_KEY("a Cyrillic letter");
     return letters + 2 * (m >= 'a' ? m - 'a' + 26 : m - 'A');
   }
   if (c >= 0xff01 && c <= 0xff1e) {
-    what[0] = "a full-width character";
-    what[1] = "ein Zeichen doppelter Breite";
+    *what = PL_KEY("a full-width character");
     return ascii[c - 0xff00];
   }
   return NULL;

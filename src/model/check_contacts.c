@@ -23,66 +23,58 @@ static void check_range(pl_job* job, const pl_model* m, const double* value, pl_
   pl_diagnostic* d =
       isnan(most)
           ? pl_tell(job, PL_E065, span, PL_F(job, "%s is %.6g, it cannot be negative", en, x),
-                    PL_F(job, "%s ist %.6g, darf aber nicht negativ sein", de, x))
+                    PL_F(job, pl_german("%s is %.6g, it cannot be negative"), de, x))
           : pl_tell(job, PL_E065, span, PL_F(job, "%s is %.6g, it lies between 0 and 1", en, x),
-                    PL_F(job, "%s ist %.6g, muss aber zwischen 0 und 1 liegen", de, x));
+                    PL_F(job, pl_german("%s is %.6g, it lies between 0 and 1"), de, x));
   if (!isnan(most))
-    pl_report_fix(d, "0 is an impact without rebound, 1 one without loss",
-                  "0 ist ein Stoß ohne Rückprall, 1 einer ohne Verlust", NULL);
+    pl_report_fix(d, PL_BOTH("0 is an impact without rebound, 1 one without loss"), NULL);
 }
 
 static void check_restitution(pl_job* job, const pl_model* m, int i, const double* value) {
   const pl_restitution* r = &m->restitutions.at[i];
   const pl_constraint* c = meant(m, r->label, true, i);
-  check_range(job, m, value, r->value, 1, r->span, "the coefficient of restitution",
-              "die Stoßzahl");
+  check_range(job, m, value, r->value, 1, r->span, PL_BOTH("the coefficient of restitution"));
   if (!c) return;
   if (pl_has_coordinate(m->pool, r->value, job->arena)
       || pl_has_role(m->pool, r->value, PL_R_TIME)) {
-    pl_tell(job, PL_E057, r->span, "a coefficient of restitution is constant",
-            "eine Stoßzahl ist konstant");
+    pl_tell(job, PL_E057, r->span, PL_BOTH("a coefficient of restitution is constant"));
     return;
   }
   if (c->relation != PL_EQ) return;
   pl_diagnostic* d = pl_tell(
-      job, PL_E066, r->span, PL_F(job, "nothing bounces off %s: it holds both ways", r->label),
-      PL_F(job, "an %s prallt nichts ab: sie gilt in beiden Richtungen", r->label));
-  pl_report_fix(d, "one-sided constraints are written with >= or <=",
-                "einseitige Zwangsbedingungen schreibt man mit >= oder <=", NULL);
+      job, PL_E066, r->span,
+      PL_BOTH_FORMAT(job->arena, "nothing bounces off %s: it holds both ways", r->label));
+  pl_report_fix(d, PL_BOTH("one-sided constraints are written with >= or <="), NULL);
 }
 
 static void check_friction(pl_job* job, const pl_model* m, int i, const double* value) {
   const pl_friction* f = &m->frictions.at[i];
   const pl_constraint* c = meant(m, f->label, false, i);
-  check_range(job, m, value, f->kinetic, NAN, f->span, "the coefficient of friction",
-              "der Reibungskoeffizient");
-  check_range(job, m, value, f->sticking, NAN, f->span, "the coefficient of static friction",
-              "der Haftreibungskoeffizient");
+  check_range(job, m, value, f->kinetic, NAN, f->span, PL_BOTH("the coefficient of friction"));
+  check_range(job, m, value, f->sticking, NAN, f->span,
+              PL_BOTH("the coefficient of static friction"));
   double kinetic = pl_eval(m->pool, f->kinetic, value);
   double sticking = pl_is_poison(f->sticking) ? (double)NAN : pl_eval(m->pool, f->sticking, value);
   if (sticking >= 0 && kinetic > sticking) {
     pl_diagnostic* d = pl_tell(
         job, PL_E065, f->span,
-        PL_F(job, "static friction (%.6g) is less than kinetic friction (%.6g)", sticking, kinetic),
-        PL_F(job, "die Haftreibung (%.6g) ist kleiner als die Gleitreibung (%.6g)", sticking,
-             kinetic));
-    pl_report_fix(d, "the kinetic coefficient comes first: friction 0.3, static 0.4 on c",
-                  "zuerst steht der Gleitreibungskoeffizient: friction 0.3, static 0.4 on c", NULL);
+        PL_BOTH_FORMAT(job->arena, "static friction (%.6g) is less than kinetic friction (%.6g)",
+                       sticking, kinetic));
+    pl_report_fix(d, PL_BOTH("the kinetic coefficient comes first: friction 0.3, static 0.4 on c"),
+                  NULL);
   }
   if (!c) return;
   if (c->has_velocity) {
     pl_diagnostic* d = pl_tell(
         job, PL_E066, f->span,
-        PL_F(job, "%s restricts velocities: it presses no surfaces together", f->label),
-        PL_F(job, "%s bindet Geschwindigkeiten und presst keine Flächen aufeinander", f->label));
-    pl_report_fix(d, "friction belongs to a constraint on positions",
-                  "Reibung gehört zu einer Zwangsbedingung an die Lage", NULL);
+        PL_BOTH_FORMAT(job->arena, "%s restricts velocities: it presses no surfaces together",
+                       f->label));
+    pl_report_fix(d, PL_BOTH("friction belongs to a constraint on positions"), NULL);
   }
 }
 
 static void check_twice(pl_job* job, const char* label, pl_span span, const char* what) {
-  pl_tell(job, PL_E028, span, PL_F(job, "%s on %s is given twice", what, label),
-          PL_F(job, "%s für %s ist zweimal angegeben", what, label));
+  pl_tell(job, PL_E028, span, PL_BOTH_FORMAT(job->arena, "%s on %s is given twice", what, label));
 }
 
 // An event that attaches something one-sided makes an impact: without restitution it is inelastic,
@@ -95,8 +87,9 @@ static void check_attached(pl_job* job, const pl_model* m, const pl_event* e) {
     if (!c || c->relation == PL_EQ || pl_model_restitution(m, c)) continue;
     pl_diagnostic* d = pl_tell(
         job, PL_N068, a->span.source ? a->span : e->span,
-        PL_F(job, "%s has no restitution: an impact when it is attached is inelastic", a->label),
-        PL_F(job, "%s hat keine Stoßzahl: ein Stoß beim Anschließen ist unelastisch", a->label));
+        PL_BOTH_FORMAT(job->arena,
+                       "%s has no restitution: an impact when it is attached is inelastic",
+                       a->label));
     pl_report_fix(d, PL_F(job, "restitution 0 on %s", a->label),
                   PL_F(job, "restitution 0 on %s", a->label), NULL);
   }

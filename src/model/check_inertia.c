@@ -63,21 +63,22 @@ static void tell(pl_job* job, const inertia_check* c) {
                       "sum of the others, %.6g",
                       J[2], J[0] + J[1]),
       negative ? PL_F(
-          job, "Trägheitsmomente sind positiv: entlang der Hauptachsen ist dies %.6g, %.6g, %.6g",
+          job,
+          pl_german(
+              "moments of inertia are positive: along its principal axes this is %.6g, %.6g, %.6g"),
           J[0], J[1], J[2])
-               : PL_F(job,
-                      "diese Trägheit hat kein Körper: das größte Hauptträgheitsmoment, %.6g, "
-                      "übertrifft die Summe der anderen, %.6g",
-                      J[2], J[0] + J[1]));
-  pl_report_reason(d, "J1 = ∫ (y² + z²) dm and so on, so that J1 <= J2 + J3",
-                   "J1 = ∫ (y² + z²) dm und so weiter, also J1 <= J2 + J3");
-  pl_report_fix(d,
-                negative ? "correct the number; products of inertia have the sign Jxy = -∫ x y dm"
-                         : "correct the number",
-                negative
-                    ? "die Zahl berichtigen; Deviationsmomente haben das Vorzeichen Jxy = -∫ x y dm"
-                    : "die Zahl berichtigen",
-                NULL);
+               : PL_F(
+                   job,
+                   pl_german(
+                       "no body has this inertia: its largest principal moment, %.6g, exceeds the "
+                       "sum of the others, %.6g"),
+                   J[2], J[0] + J[1]));
+  pl_report_reason(d, PL_BOTH("J1 = ∫ (y² + z²) dm and so on, so that J1 <= J2 + J3"));
+  pl_report_fix(
+      d,
+      PL_BOTH(negative ? "correct the number; products of inertia have the sign Jxy = -∫ x y dm"
+                       : "correct the number"),
+      NULL);
 }
 
 void pl_check_inertia(pl_job* job, pl_model* m) {

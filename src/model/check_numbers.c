@@ -38,10 +38,8 @@ static void check_circles(pl_job* job, pl_model* m, const double* value) {
     if (!leads_to(m, job->arena, p->value, p->symbol, pl_map_make(job->arena))) continue;
     const char* name = pl_symbol_get(m->pool, p->symbol)->name;
     pl_diagnostic* d = pl_tell(job, PL_E049, p->span,
-                               PL_F(job, "%s is defined through itself", name),
-                               PL_F(job, "%s ist durch sich selbst definiert", name));
-    pl_report_fix(d, PL_F(job, "give %s a number", name),
-                  PL_F(job, "%s einen Zahlenwert geben", name), NULL);
+                               PL_BOTH_FORMAT(job->arena, "%s is defined through itself", name));
+    pl_report_fix(d, PL_BOTH_FORMAT(job->arena, "give %s a number", name), NULL);
     return;  // the others of the circle are the same mistake
   }
 }
@@ -76,7 +74,7 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
   if (ok) return;
   pl_diagnostic* d = pl_tell(job, PL_E036, span,
                              PL_F(job, "%s is %.6g, it has to be positive", en, c.bad),
-                             PL_F(job, "%s ist %.6g, muss aber positiv sein", de, c.bad));
+                             PL_F(job, pl_german("%s is %.6g, it has to be positive"), de, c.bad));
   if (!pl_is_number(m->pool, e)) {
     const char* text = pl_expr_words(job->arena, m->pool, e);
     pl_report_reason(d, PL_F(job, "%s = %.6g", text, c.bad), PL_F(job, "%s = %.6g", text, c.bad));
@@ -87,31 +85,28 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
 static void check_signs(pl_job* job, pl_model* m, pl_index_values* v) {
   for (int i = 0; i < m->masses.n; i++) {
     check_positive(job, v, m->masses.at[i].mass, m->masses.at[i].block, false, m->masses.at[i].span,
-                   "this mass", "diese Masse", "a point without mass is written: point A at (x, y)",
-                   "ein Punkt ohne Masse wird so geschrieben: point A at (x, y)");
+                   PL_BOTH("this mass"),
+                   PL_BOTH("a point without mass is written: point A at (x, y)"));
   }
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* b = &m->bodies.at[i];
-    check_positive(job, v, b->mass, b->block, false, b->span, "this mass", "diese Masse",
-                   "give a positive number", "eine positive Zahl angeben");
-    check_positive(job, v, b->inertia, b->block, false, b->span, "this moment of inertia",
-                   "dieses Trägheitsmoment", "a point mass is written: mass m at (x, y)",
-                   "eine Punktmasse wird so geschrieben: mass m at (x, y)");
+    check_positive(job, v, b->mass, b->block, false, b->span, PL_BOTH("this mass"),
+                   PL_BOTH("give a positive number"));
+    check_positive(job, v, b->inertia, b->block, false, b->span, PL_BOTH("this moment of inertia"),
+                   PL_BOTH("a point mass is written: mass m at (x, y)"));
   }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* x = &m->loads.at[i];
     if (x->kind == PL_L_SPRING) {
-      check_positive(job, v, x->value, x->block, true, x->span, "this stiffness",
-                     "diese Federsteifigkeit",
-                     "a negative stiffness is written as a potential: potential -1/2 k x^2",
-                     "eine negative Steifigkeit schreibt man als Potential: potential -1/2 k x^2");
-      check_positive(job, v, x->rest, x->block, true, x->span, "this rest length",
-                     "diese Ruhelänge", "rest 0", "rest 0");
+      check_positive(
+          job, v, x->value, x->block, true, x->span, PL_BOTH("this stiffness"),
+          PL_BOTH("a negative stiffness is written as a potential: potential -1/2 k x^2"));
+      check_positive(job, v, x->rest, x->block, true, x->span, PL_BOTH("this rest length"),
+                     "rest 0", "rest 0");
     }
     if (x->kind == PL_L_DAMPER || x->kind == PL_L_DRAG) {
-      check_positive(job, v, x->value, x->block, true, x->span, "this damping coefficient",
-                     "diese Dämpfungskonstante", "a force along the motion is written with force",
-                     "eine Kraft in Bewegungsrichtung schreibt man mit force");
+      check_positive(job, v, x->value, x->block, true, x->span, PL_BOTH("this damping coefficient"),
+                     PL_BOTH("a force along the motion is written with force"));
     }
   }
 }
@@ -133,8 +128,8 @@ static bool relation_fails(double left, pl_relation r, double right) {
 
 static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl_expr e,
                             const double* value) {
-  pl_diagnostic* d = pl_tell(job, PL_E060, a->span, "the given numbers contradict this assumption",
-                             "die gegebenen Zahlen widersprechen dieser Annahme");
+  pl_diagnostic* d = pl_tell(job, PL_E060, a->span,
+                             PL_BOTH("the given numbers contradict this assumption"));
   int n = pl_symbols_in(m->pool, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(job->arena, pl_symbol, n + 1);
   pl_symbols_in(m->pool, e, s, n);
@@ -146,8 +141,7 @@ static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl
     pl_text_addf(&numbers, "%s%s", i ? ", " : "", text);
   }
   pl_report_reason(d, pl_text_string(&numbers), pl_text_string(&numbers));
-  pl_report_fix(d, "change the numbers or the assumption", "die Zahlen oder die Annahme ändern",
-                NULL);
+  pl_report_fix(d, PL_BOTH("change the numbers or the assumption"), NULL);
 }
 
 static void check_assumptions(pl_job* job, pl_model* m, const double* value) {

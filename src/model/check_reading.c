@@ -23,18 +23,15 @@ static bool told_place(pl_job* job, const pl_model* m, const pl_point* p, pl_spa
     for (int j = 0; letter && j < m->n_axes; j++) {
       if (j == k || strcmp(m->axes[j].ascii, letter) != 0) continue;
       const char* name = pl_expr_words(job->arena, m->pool, p->at[k]);
-      pl_diagnostic* d = pl_tell(job, PL_N076, p->span.source ? p->span : span,
-                                 PL_F(job, "%s stands in the place of %s", name, m->axes[k].name),
-                                 PL_F(job, "%s steht an der Stelle von %s", name, m->axes[k].name));
+      pl_diagnostic* d = pl_tell(
+          job, PL_N076, p->span.source ? p->span : span,
+          PL_BOTH_FORMAT(job->arena, "%s stands in the place of %s", name, m->axes[k].name));
       const char* third = m->n_axes == 3 ? PL_F(job, ", %s", m->axes[2].name) : "";
-      pl_report_reason(
-          d, PL_F(job, "points are read as (%s, %s%s)", m->axes[0].name, m->axes[1].name, third),
-          PL_F(job, "Punkte werden als (%s, %s%s) gelesen", m->axes[0].name, m->axes[1].name,
-               third));
-      pl_report_fix(d, "write the components in this order, whatever the line `axes` says first",
-                    "die Komponenten in dieser Reihenfolge schreiben, gleich was die Zeile `axes` "
-                    "zuerst nennt",
-                    NULL);
+      pl_report_reason(d, PL_BOTH_FORMAT(job->arena, "points are read as (%s, %s%s)",
+                                         m->axes[0].name, m->axes[1].name, third));
+      pl_report_fix(
+          d, PL_BOTH("write the components in this order, whatever the line `axes` says first"),
+          NULL);
       return true;
     }
   }
@@ -101,13 +98,13 @@ static void check_degrees(pl_job* job, pl_model* m) {
                               : "";
     if (fabs(value) <= turn || strstr(text, "rad")) continue;
     const char* name = pl_expr_words(job->arena, m->pool, x->target);
-    pl_diagnostic* d = pl_tell(
-        job, PL_N021, x->span,
-        PL_F(job, "%s = %g is taken in radians: %.3g turns", name, value, value / turn),
-        PL_F(job, "%s = %g gilt im Bogenmaß: %.3g Umdrehungen", name, value, value / turn));
-    pl_report_fix(d, PL_F(job, "write %g° if degrees are meant, %g [rad] if not", value, value),
-                  PL_F(job, "schreibe %g°, falls Grad gemeint sind, sonst %g [rad]", value, value),
-                  NULL);
+    pl_diagnostic* d = pl_tell(job, PL_N021, x->span,
+                               PL_BOTH_FORMAT(job->arena, "%s = %g is taken in radians: %.3g turns",
+                                              name, value, value / turn));
+    pl_report_fix(
+        d,
+        PL_BOTH_FORMAT(job->arena, "write %g° if degrees are meant, %g [rad] if not", value, value),
+        NULL);
   }
 }
 
@@ -127,11 +124,11 @@ static void check_idle_gravity(pl_job* job, const pl_model* m) {
     if (g->axis < 0 || g->axis >= m->n_axes || moves_along(job, m, g->axis)) continue;
     const char* axis = m->axes[g->axis].name;
     pl_diagnostic* d = pl_tell(
-        job, PL_N064, g->span, PL_F(job, "gravity has no effect: no mass moves along %s", axis),
-        PL_F(job, "die Schwerkraft wirkt auf nichts: keine Masse bewegt sich längs %s", axis));
+        job, PL_N064, g->span,
+        PL_BOTH_FORMAT(job->arena, "gravity has no effect: no mass moves along %s", axis));
     pl_report_fix(
-        d, "let it point along an axis that masses move along, or leave it as it is",
-        "sie längs einer Achse wirken lassen, längs der sich Massen bewegen, oder so lassen", NULL);
+        d, PL_BOTH("let it point along an axis that masses move along, or leave it as it is"),
+        NULL);
   }
 }
 
@@ -144,10 +141,9 @@ static void check_no_start(pl_job* job, const pl_model* m) {
   const char* name = pl_symbol_get(m->pool, m->coords.at[0].symbol)->name;
   pl_diagnostic* d = pl_tell(
       job, PL_N077, m->simulate.span,
-      "no start value is given: the run begins at a place of its own choice",
-      "kein Startwert ist gegeben: der Lauf beginnt an einer selbst gewählten Lage");
-  pl_report_fix(d, PL_F(job, "give one: init %s = ..., %s' = ...", name, name),
-                PL_F(job, "angeben: init %s = ..., %s' = ...", name, name), NULL);
+      PL_BOTH("no start value is given: the run begins at a place of its own choice"));
+  pl_report_fix(d, PL_BOTH_FORMAT(job->arena, "give one: init %s = ..., %s' = ...", name, name),
+                NULL);
 }
 
 void pl_check_reading(pl_job* job, pl_model* m) {

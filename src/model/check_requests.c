@@ -56,38 +56,34 @@ static void check_map(pl_job* job, pl_model* m, int i) {
   if (!coordinate) {
     pl_diagnostic* d = pl_tell(
         job, PL_E058, at,
-        PL_F(job, "%s is not a coordinate: `with` gives the old coordinates", text),
-        PL_F(job, "%s ist keine Koordinate: `with` gibt die alten Koordinaten an", text));
-    pl_report_fix(d, "write  old coordinate = expression of the chosen ones",
-                  "alte Koordinate = Ausdruck der gewählten  schreiben", NULL);
+        PL_BOTH_FORMAT(job->arena, "%s is not a coordinate: `with` gives the old coordinates",
+                       text));
+    pl_report_fix(d, PL_BOTH("write  old coordinate = expression of the chosen ones"), NULL);
     return;
   }
   pl_symbol s = pl_symbol_of(m->pool, old);
   if (kind == PL_SYMBOL && is_chosen(m, s)) {
     pl_diagnostic* d = pl_tell(
-        job, PL_E058, at, PL_F(job, "%s is chosen and given by a map at the same time", text),
-        PL_F(job, "%s ist gewählt und zugleich durch eine Abbildung gegeben", text));
-    pl_report_fix(d, PL_F(job, "remove %s from one of them", text),
-                  PL_F(job, "%s an einer der beiden Stellen entfernen", text), NULL);
+        job, PL_E058, at,
+        PL_BOTH_FORMAT(job->arena, "%s is chosen and given by a map at the same time", text));
+    pl_report_fix(d, PL_BOTH_FORMAT(job->arena, "remove %s from one of them", text), NULL);
   }
   if (kind == PL_SYMBOL && map_of(m, s) != i) {
-    pl_diagnostic* d = pl_tell(job, PL_E058, at, PL_F(job, "%s is given by two maps", text),
-                               PL_F(job, "%s ist durch zwei Abbildungen gegeben", text));
-    pl_report_fix(d, "keep one of them", "eine davon behalten", NULL);
+    pl_diagnostic* d = pl_tell(job, PL_E058, at,
+                               PL_BOTH_FORMAT(job->arena, "%s is given by two maps", text));
+    pl_report_fix(d, PL_BOTH("keep one of them"), NULL);
   }
   if (pl_max_dots(m->pool, map, job->arena) > 0 || pl_has_role(m->pool, map, PL_R_MULTIPLIER)) {
     pl_diagnostic* d = pl_tell(
-        job, PL_E058, at, PL_F(job, "the map of %s may contain coordinates and time only", text),
-        PL_F(job, "die Abbildung für %s darf nur Koordinaten und die Zeit enthalten", text));
-    pl_report_fix(d, "write it with positions", "mit Lagen schreiben", NULL);
+        job, PL_E058, at,
+        PL_BOTH_FORMAT(job->arena, "the map of %s may contain coordinates and time only", text));
+    pl_report_fix(d, PL_BOTH("write it with positions"), NULL);
   }
   if (kind == PL_SYMBOL
       && map_returns(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->choose.n_maps + 1))) {
-    pl_diagnostic* d = pl_tell(job, PL_E058, at,
-                               PL_F(job, "the map of %s leads back to %s", text, text),
-                               PL_F(job, "die Abbildung für %s führt auf %s zurück", text, text));
-    pl_report_fix(d, "write it with the chosen coordinates",
-                  "mit den gewählten Koordinaten schreiben", NULL);
+    pl_diagnostic* d = pl_tell(
+        job, PL_E058, at, PL_BOTH_FORMAT(job->arena, "the map of %s leads back to %s", text, text));
+    pl_report_fix(d, PL_BOTH("write it with the chosen coordinates"), NULL);
   }
 }
 
@@ -122,9 +118,9 @@ static void check_choose(pl_job* job, pl_model* m) {
              && pl_has_symbol(m->pool, m->constraints.at[i].g, q);
     if (used) continue;
     const char* name = pl_symbol_get(m->pool, q)->name;
-    pl_diagnostic* d = pl_tell(job, PL_E058, m->choose.span,
-                               PL_F(job, "%s is chosen, but no map contains it", name),
-                               PL_F(job, "%s ist gewählt, steht aber in keiner Abbildung", name));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E058, m->choose.span,
+        PL_BOTH_FORMAT(job->arena, "%s is chosen, but no map contains it", name));
     pl_report_fix(d, PL_F(job, "choose %s with x = ... %s ...", name, name),
                   PL_F(job, "choose %s with x = ... %s ...", name, name), NULL);
   }
@@ -157,10 +153,11 @@ static void check_action(pl_job* job, pl_model* m, const pl_event* e, const pl_a
     const pl_constraint* c = pl_model_constraint(m, a->label);
     if (!c || c->off || c->relation != PL_EQ || is_released(m, a->label)) return;
     pl_diagnostic* d = pl_tell(
-        job, PL_E063, at, PL_F(job, "%s holds all the time, so it cannot be attached", a->label),
-        PL_F(job, "%s gilt die ganze Zeit und kann nicht angeschlossen werden", a->label));
-    pl_report_fix(d, PL_F(job, "start it inactive: constraint %s: ... , off", a->label),
-                  PL_F(job, "inaktiv beginnen lassen: constraint %s: ... , off", a->label), NULL);
+        job, PL_E063, at,
+        PL_BOTH_FORMAT(job->arena, "%s holds all the time, so it cannot be attached", a->label));
+    pl_report_fix(
+        d, PL_BOTH_FORMAT(job->arena, "start it inactive: constraint %s: ... , off", a->label),
+        NULL);
     return;
   }
   if (a->kind != PL_DO_SET || pl_is_poison(a->target)) return;
@@ -171,23 +168,19 @@ static void check_action(pl_job* job, pl_model* m, const pl_event* e, const pl_a
               && (role == PL_R_COORD || role == PL_R_VELOCITY || role == PL_R_PARAM
                   || (role == PL_R_ARRAY && pl_dots_of(m->pool, a->target) < 2));
   if (good) return;
-  pl_diagnostic* d = pl_tell(
-      job, PL_E063, at,
-      PL_F(job, "%s cannot be set by an event", pl_expr_words(job->arena, m->pool, a->target)),
-      PL_F(job, "%s kann durch ein Ereignis nicht gesetzt werden",
-           pl_expr_words(job->arena, m->pool, a->target)));
-  pl_report_fix(d, "an event sets coordinates, velocities and parameters",
-                "ein Ereignis setzt Koordinaten, Geschwindigkeiten und Parameter", NULL);
+  pl_diagnostic* d = pl_tell(job, PL_E063, at,
+                             PL_BOTH_FORMAT(job->arena, "%s cannot be set by an event",
+                                            pl_expr_words(job->arena, m->pool, a->target)));
+  pl_report_fix(d, PL_BOTH("an event sets coordinates, velocities and parameters"), NULL);
 }
 
 static void check_event(pl_job* job, pl_model* m, const pl_event* e) {
   if (!pl_is_poison(e->value) && !depends_on_motion(job, m, e->value)) {
     const char* name = e->name.text ? e->name.text : "?";
-    pl_diagnostic* d = pl_tell(job, PL_E062, e->span,
-                               PL_F(job, "event %s does not depend on the motion", name),
-                               PL_F(job, "Ereignis %s hängt nicht von der Bewegung ab", name));
-    pl_report_fix(d, "use a coordinate, a velocity, a force or t",
-                  "eine Koordinate, Geschwindigkeit, Kraft oder t verwenden", NULL);
+    pl_diagnostic* d = pl_tell(
+        job, PL_E062, e->span,
+        PL_BOTH_FORMAT(job->arena, "event %s does not depend on the motion", name));
+    pl_report_fix(d, PL_BOTH("use a coordinate, a velocity, a force or t"), NULL);
   }
   for (int k = 0; k < e->actions.n; k++) check_action(job, m, e, &e->actions.at[k]);
 }
@@ -197,12 +190,10 @@ static void check_solve(pl_job* job, pl_model* m, const pl_ask* a) {
   if (pl_is_poison(a->value) || pl_kind_of(m->pool, a->value) != PL_SYMBOL) return;
   const pl_symbol_info* info = pl_symbol_get(m->pool, pl_symbol_of(m->pool, a->value));
   if (info->role != PL_R_PARAM && info->role != PL_R_TIME) return;
-  pl_diagnostic* d = pl_tell(job, PL_E057, a->span,
-                             PL_F(job, "%s is given, there is nothing to solve for", info->name),
-                             PL_F(job, "%s ist gegeben, danach ist nichts aufzulösen", info->name));
-  pl_report_fix(
-      d, "solve for a multiplier, an acceleration x'' or a motion x(t)",
-      "nach einem Multiplikator, einer Beschleunigung x'' oder einer Bewegung x(t) auflösen", NULL);
+  pl_diagnostic* d = pl_tell(
+      job, PL_E057, a->span,
+      PL_BOTH_FORMAT(job->arena, "%s is given, there is nothing to solve for", info->name));
+  pl_report_fix(d, PL_BOTH("solve for a multiplier, an acceleration x'' or a motion x(t)"), NULL);
 }
 
 static void check_frame(pl_job* job, pl_model* m, const pl_ask* a) {
@@ -211,10 +202,9 @@ static void check_frame(pl_job* job, pl_model* m, const pl_ask* a) {
     if (info->role == PL_R_COORD) continue;
     pl_diagnostic* d = pl_tell(
         job, PL_E057, a->span,
-        PL_F(job, "equations cannot be written in %s: it is no coordinate", info->name),
-        PL_F(job, "Gleichungen lassen sich nicht in %s schreiben: das ist keine Koordinate",
-             info->name));
-    pl_report_fix(d, "name coordinates: in (r, θ)", "Koordinaten nennen: in (r, θ)", NULL);
+        PL_BOTH_FORMAT(job->arena, "equations cannot be written in %s: it is no coordinate",
+                       info->name));
+    pl_report_fix(d, PL_BOTH("name coordinates: in (r, θ)"), NULL);
   }
 }
 

@@ -31,14 +31,14 @@ static void check_twice(pl_job* job, pl_model* m) {
     int first = pl_index_sets_add(&given, key, at, x->block, i, &index);
     if (first < 0) continue;
     const char* text = target_text(job, m, x->target, index);
-    pl_diagnostic* d = pl_tell(job, PL_E044, x->span,
-                               PL_F(job, "the start value of %s is given twice", text),
-                               PL_F(job, "der Startwert von %s ist zweimal angegeben", text));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E044, x->span,
+        PL_BOTH_FORMAT(job->arena, "the start value of %s is given twice", text));
     pl_span other = m->inits.at[first].span;
     if (other.source && other.begin != x->span.begin)
       pl_report_label(job->diagnostics, d, other,
-                      job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-    pl_report_fix(d, "keep one of them", "einen davon behalten", NULL);
+                      job->lang == PL_GERMAN ? pl_german("first here") : "first here");
+    pl_report_fix(d, PL_BOTH("keep one of the values"), NULL);
   }
 }
 
@@ -46,21 +46,17 @@ static void check_twice(pl_job* job, pl_model* m) {
 static void check_init_value(pl_job* job, pl_model* m, const pl_init* x) {
   if (pl_is_poison(x->value)) {
     if (job->diagnostics->n_errors) return;
-    pl_diagnostic* d = pl_tell(job, PL_E040, x->span, "this start value has no value",
-                               "dieser Startwert hat keinen Wert");
-    pl_report_reason(d, "a division by zero?", "eine Division durch null?");
+    pl_diagnostic* d = pl_tell(job, PL_E040, x->span, PL_BOTH("this start value has no value"));
+    pl_report_reason(d, PL_BOTH("a division by zero?"));
     return;
   }
   bool force = pl_has_role(m->pool, x->value, PL_R_MULTIPLIER);
   if (!force && pl_max_dots(m->pool, x->value, job->arena) < 2) return;
   pl_diagnostic* d = pl_tell(job, PL_E046, x->span,
-                             force ? "a start value cannot contain a multiplier"
-                                   : "a start value cannot contain an acceleration",
-                             force ? "ein Startwert kann keinen Multiplikator enthalten"
-                                   : "ein Startwert kann keine Beschleunigung enthalten");
-  pl_report_reason(d, "these follow from the start", "die folgen erst aus dem Start");
-  pl_report_fix(d, "use given quantities and other start values",
-                "gegebene Größen und andere Startwerte verwenden", NULL);
+                             PL_BOTH(force ? "a start value cannot contain a multiplier"
+                                           : "a start value cannot contain an acceleration"));
+  pl_report_reason(d, PL_BOTH("these follow from the start"));
+  pl_report_fix(d, PL_BOTH("use given quantities and other start values"), NULL);
 }
 
 static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
@@ -71,8 +67,7 @@ static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
               && pl_has_coordinate(m->pool, x->target, job->arena) && dots < 2;
   if (good) return;
   pl_diagnostic* d = pl_tell(job, PL_E030, x->span,
-                             "only coordinates and velocities have start values",
-                             "nur Koordinaten und Geschwindigkeiten haben Startwerte");
+                             PL_BOTH("only coordinates and velocities have start values"));
   pl_report_fix(d, "init x = 1, x' = 0", "init x = 1, x' = 0", NULL);
 }
 
@@ -112,9 +107,8 @@ static void check_init_circles(pl_job* job, pl_model* m) {
       continue;
     if (!returns_to(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->inits.n + 1))) continue;
     pl_diagnostic* d = pl_tell(job, PL_E045, m->inits.at[i].span,
-                               "these start values lead back to each other",
-                               "diese Startwerte führen aufeinander zurück");
-    pl_report_fix(d, "give one of them as a number", "einen davon als Zahl angeben", NULL);
+                               PL_BOTH("these start values lead back to each other"));
+    pl_report_fix(d, PL_BOTH("give one of them as a number"), NULL);
     return;
   }
 }
@@ -130,18 +124,18 @@ static void check_span_of_simulation(pl_job* job, pl_model* m, const double* val
   if (to <= from) {
     pl_diagnostic* d = pl_tell(
         job, PL_E047, s->span,
-        PL_F(job, "the simulation ends at %.6g s, not after its start at %.6g s", to, from),
-        PL_F(job, "die Simulation endet bei %.6g s, nicht nach ihrem Anfang bei %.6g s", to, from));
+        PL_BOTH_FORMAT(job->arena, "the simulation ends at %.6g s, not after its start at %.6g s",
+                       to, from));
     pl_report_fix(d, "simulate 0..10 [s]", "simulate 0..10 [s]", NULL);
   }
   if (step <= 0) {
-    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the step of the output has to be positive",
-                               "die Schrittweite der Ausgabe muss positiv sein");
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span,
+                               PL_BOTH("the step of the output has to be positive"));
     pl_report_fix(d, "simulate 0..10 step 0.01 [s]", "simulate 0..10 step 0.01 [s]", NULL);
   }
   if (tol <= 0 || tol >= 1) {
-    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the tolerance has to lie between 0 and 1",
-                               "die Toleranz muss zwischen 0 und 1 liegen");
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span,
+                               PL_BOTH("the tolerance has to lie between 0 and 1"));
     pl_report_fix(d, "tol 1e-9", "tol 1e-9", NULL);
   }
 }
@@ -198,8 +192,7 @@ static void check_numbers_given(pl_job* job, pl_model* m) {
     const pl_symbol_info* info = pl_symbol_get(m->pool, p->symbol);
     pl_diagnostic* d = pl_tell(
         job, PL_E048, p->span,
-        PL_F(job, "%s has no number, but simulate computes with it", info->name),
-        PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
+        PL_BOTH_FORMAT(job->arena, "%s has no number, but simulate computes with it", info->name));
     const char* unit = info->dimension_known ? pl_unit_of_symbol(job->arena, m->pool, p->symbol,
                                                                  info->dimension, true)
                                              : "1";
@@ -403,7 +396,7 @@ static const char* value_text(pl_job* job, const pl_model* m, const pl_init* x, 
   bool pure = !pl_model_dimension(m, pl_sym(m->pool, q), &d)
               || pl_dimension_equal(d, pl_dimension_one());
   if (!pure) unit = PL_F(job, " %s", pl_dimension_unit(job->arena, d, false));
-  const char* or = job->lang == PL_GERMAN ? " oder " : " or ";
+  const char* or = job->lang == PL_GERMAN ? pl_german(" or ") : " or ";
   pl_text t = pl_text_make(job->arena);
   pl_text_addf(&t, "%s%s = ", info->name, info->dots ? "'" : "");
   for (int i = 0; i < n; i++) {
@@ -440,22 +433,25 @@ static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, doub
   const char* fit;
   const pl_init* x = blame(job, m, c->g, value, &fit);
   pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span,
-                             PL_F(job, "the start violates %s", name),
-                             PL_F(job, "der Start verletzt %s", name));
+                             PL_BOTH_FORMAT(job->arena, "the start violates %s", name));
   double left = pl_eval(m->pool, c->left, value), right = pl_eval(m->pool, c->right, value);
   static const char* const signs[] = {"=", ">=", "<=", ">", "<", "!="};
   const char* claim = PL_F(job, "%.6g %s %.6g", left, signs[c->relation], right);
   if (x && x->span.source && c->span.source)
-    pl_report_label(job->diagnostics, d, c->span,
-                    PL_F(job, job->lang == PL_GERMAN ? "das hieße %s" : "this would be %s", claim));
-  else pl_report_reason(d, PL_F(job, "this would be %s", claim), PL_F(job, "das hieße %s", claim));
+    pl_report_label(
+        job->diagnostics, d, c->span,
+        PL_F(job, job->lang == PL_GERMAN ? pl_german("this would be %s") : "this would be %s",
+             claim));
+  else pl_report_reason(d, PL_BOTH_FORMAT(job->arena, "this would be %s", claim));
   if (fit) {
     pl_report_fix(
-        d, PL_F(job, "%s would fit. Change it, or remove it from init and let it follow", fit),
-        PL_F(job, "%s würde passen. Ändern, oder aus init entfernen und folgen lassen", fit), NULL);
+        d,
+        PL_BOTH_FORMAT(job->arena,
+                       "%s would fit. Change it, or remove it from init and let it follow", fit),
+        NULL);
   } else {
-    pl_report_fix(d, "leave one of the start values out, and it follows from the constraints",
-                  "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
+    pl_report_fix(
+        d, PL_BOTH("leave one of the start values out, and it follows from the constraints"), NULL);
   }
 }
 

@@ -38,12 +38,10 @@ static void check_theta(pl_job* job, pl_model* m) {
   if (!name[0] || !name[1]) return;
   pl_diagnostic* d = pl_tell(
       job, PL_E059, at[1],
-      PL_F(job, "%s and %s: θ and ϑ in one model cannot be told apart in ASCII", name[0], name[1]),
-      PL_F(job, "%s und %s: θ und ϑ in einem Modell sind in ASCII nicht zu unterscheiden", name[0],
-           name[1]));
+      PL_BOTH_FORMAT(job->arena, "%s and %s: θ and ϑ in one model cannot be told apart in ASCII",
+                     name[0], name[1]));
   pl_report_label(job->diagnostics, d, at[0], name[0]);
-  pl_report_fix(d, "write θ everywhere, or choose another letter",
-                "überall θ schreiben oder einen anderen Buchstaben wählen", NULL);
+  pl_report_fix(d, PL_BOTH("write θ everywhere, or choose another letter"), NULL);
 }
 
 // ------------------------------------------------------------------------------------------ labels
@@ -59,18 +57,19 @@ static void tell_label(label_check* c, const pl_name* name, const char* shown, p
                        int first) {
   pl_span at = span, found;
   if (pl_span_find_name(span, name->ascii ? name->ascii : name->text, &found)) at = found;
-  pl_diagnostic* d = pl_tell(c->job, PL_E034, at, PL_F(c->job, "the label %s is used twice", shown),
-                             PL_F(c->job, "die Marke %s ist zweimal vergeben", shown));
+  pl_diagnostic* d = pl_tell(c->job, PL_E034, at,
+                             PL_BOTH_FORMAT(c->job->arena, "the label %s is used twice", shown));
   if (first == c->used.n - 1 && pl_is_poison(name->index)) {
-    pl_report_fix(d, PL_F(c->job, "inside `for` give each its own: %s[i]", name->text),
-                  PL_F(c->job, "in `for` jeder ihre eigene geben: %s[i]", name->text), NULL);
+    pl_report_fix(
+        d, PL_BOTH_FORMAT(c->job->arena, "inside `for` give each its own: %s[i]", name->text),
+        NULL);
     return;
   }
   if (first < c->used.n - 1 && c->used.at[first].source) {
     pl_report_label(c->job->diagnostics, d, c->used.at[first],
-                    c->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+                    c->job->lang == PL_GERMAN ? pl_german("first here") : "first here");
   }
-  pl_report_fix(d, "choose another label", "eine andere Marke wählen", NULL);
+  pl_report_fix(d, PL_BOTH("choose another label"), NULL);
 }
 
 static void check_label(label_check* c, const pl_name* name, const pl_block* b, pl_span span) {
@@ -125,44 +124,39 @@ static const char* axes_text(pl_job* job, const pl_model* m) {
 static void check_components(pl_job* job, const pl_model* m, int n, pl_span span, const char* en,
                              const char* de) {
   if (n == m->n_axes || n == 0) return;
-  pl_diagnostic* d = pl_tell(job, PL_E035, span,
-                             PL_F(job, "%s has %d component%s, but there are %d axes", en, n,
-                                  n == 1 ? "" : "s", m->n_axes),
-                             PL_F(job, "%s hat %d Komponente%s, aber es gibt %d Achsen", de, n,
-                                  n == 1 ? "" : "n", m->n_axes));
-  pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)),
-                   PL_F(job, "Achsen: %s", axes_text(job, m)));
+  const char* parts = n == 1 ? PL_KEY("component") : PL_KEY("components");
+  pl_diagnostic* d = pl_tell(
+      job, PL_E035, span, PL_F(job, "%s has %d %s, but there are %d axes", en, n, parts, m->n_axes),
+      PL_F(job, pl_german("%s has %d %s, but there are %d axes"), de, n, pl_german(parts),
+           m->n_axes));
+  pl_report_reason(d, PL_BOTH_FORMAT(job->arena, "axes: %s", axes_text(job, m)));
   pl_report_fix(
       d,
-      n < m->n_axes ? "write 0 for what is missing, or name the axes in use: axes x right, y up"
-                    : "leave components out, or name all axes: axes x right, y up, z out",
-      n < m->n_axes
-          ? "0 für die fehlenden schreiben, oder die benutzten Achsen nennen: axes x right, y up"
-          : "Komponenten weglassen, oder alle Achsen nennen: axes x right, y up, z out",
+      PL_BOTH(n < m->n_axes
+                  ? "write 0 for what is missing, or name the axes in use: axes x right, y up"
+                  : "leave components out, or name all axes: axes x right, y up, z out"),
       NULL);
 }
 
 static void check_all_components(pl_job* job, pl_model* m) {
   for (int i = 0; i < m->masses.n; i++)
-    check_components(job, m, m->masses.at[i].point.n, m->masses.at[i].span, "this point",
-                     "dieser Punkt");
+    check_components(job, m, m->masses.at[i].point.n, m->masses.at[i].span, PL_BOTH("this point"));
   for (int i = 0; i < m->bodies.n; i++)
-    check_components(job, m, m->bodies.at[i].centre.n, m->bodies.at[i].span, "this centre",
-                     "dieser Mittelpunkt");
+    check_components(job, m, m->bodies.at[i].centre.n, m->bodies.at[i].span,
+                     PL_BOTH("this centre"));
   for (int i = 0; i < m->points.n; i++)
-    check_components(job, m, m->points.at[i].point.n, m->points.at[i].span, "this point",
-                     "dieser Punkt");
+    check_components(job, m, m->points.at[i].point.n, m->points.at[i].span, PL_BOTH("this point"));
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* x = &m->loads.at[i];
     bool at_points = x->kind == PL_L_FORCE || x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER
                      || x->kind == PL_L_DRAG;
     if (!at_points) continue;
-    check_components(job, m, x->a.n, x->span, "the point of attack", "der Angriffspunkt");
+    check_components(job, m, x->a.n, x->span, PL_BOTH("the point of attack"));
     if (x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER)
-      check_components(job, m, x->b.n, x->span, "the other end", "das andere Ende");
+      check_components(job, m, x->b.n, x->span, PL_BOTH("the other end"));
     int n = 0;
     for (int k = 0; k < 3; k++) n += x->kind == PL_L_FORCE && !pl_is_poison(x->vector[k]);
-    check_components(job, m, n, x->span, "this force", "diese Kraft");
+    check_components(job, m, n, x->span, PL_BOTH("this force"));
   }
 }
 
@@ -171,26 +165,23 @@ static void check_gravity(pl_job* job, pl_model* m) {
     const pl_gravity* g = &m->gravities.at[i];
     if (g->axis < 0 || g->axis >= m->n_axes) {
       pl_diagnostic* d = pl_tell(job, PL_E029, g->span,
-                                 "gravity acts along an axis that does not exist",
-                                 "die Schwerkraft wirkt längs einer Achse, die es nicht gibt");
-      pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)),
-                       PL_F(job, "Achsen: %s", axes_text(job, m)));
+                                 PL_BOTH("gravity acts along an axis that does not exist"));
+      pl_report_reason(d, PL_BOTH_FORMAT(job->arena, "axes: %s", axes_text(job, m)));
       const char* last = m->n_axes ? m->axes[m->n_axes - 1].name : "y";
       pl_report_fix(d, PL_F(job, "gravity g along -%s", last),
                     PL_F(job, "gravity g along -%s", last), NULL);
     }
     if (pl_has_coordinate(m->pool, g->g, job->arena)) {
-      pl_diagnostic* d = pl_tell(job, PL_E057, g->span, "gravity cannot depend on the motion",
-                                 "die Schwerkraft kann nicht von der Bewegung abhängen");
-      pl_report_fix(d, "write it as a potential: potential -G M m/r",
-                    "als Potential schreiben: potential -G M m/r", NULL);
+      pl_diagnostic* d = pl_tell(job, PL_E057, g->span,
+                                 PL_BOTH("gravity cannot depend on the motion"));
+      pl_report_fix(d, PL_BOTH("write it as a potential: potential -G M m/r"), NULL);
     }
     if (i == 1) {
-      pl_diagnostic* d = pl_tell(job, PL_N066, g->span, "gravity is given more than once: both act",
-                                 "die Schwerkraft ist mehrmals angegeben: beide wirken");
+      pl_diagnostic* d = pl_tell(job, PL_N066, g->span,
+                                 PL_BOTH("gravity is given more than once: both act"));
       if (m->gravities.at[0].span.source)
         pl_report_label(job->diagnostics, d, m->gravities.at[0].span,
-                        job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+                        job->lang == PL_GERMAN ? pl_german("first here") : "first here");
     }
   }
 }
@@ -201,15 +192,14 @@ static void check_gravity(pl_job* job, pl_model* m) {
 static void check_value(pl_job* job, pl_expr e, pl_span span, const char* en, const char* de) {
   if (!pl_is_poison(e) || job->diagnostics->n_errors) return;
   pl_diagnostic* d = pl_tell(job, PL_E040, span, PL_F(job, "%s has no value", en),
-                             PL_F(job, "%s hat keinen Wert", de));
-  pl_report_reason(d, "a division by zero?", "eine Division durch null?");
-  pl_report_fix(d, "look for a denominator that is zero", "nach einem Nenner suchen, der null ist",
-                NULL);
+                             PL_F(job, pl_german("%s has no value"), de));
+  pl_report_reason(d, PL_BOTH("a division by zero?"));
+  pl_report_fix(d, PL_BOTH("look for a denominator that is zero"), NULL);
 }
 
 static const char* kind_name(int dots, bool german) {
-  if (german) return dots == 2 ? "eine Beschleunigung" : "eine Geschwindigkeit";
-  return dots == 2 ? "an acceleration" : "a velocity";
+  const char* kind = dots == 2 ? PL_KEY("an acceleration") : PL_KEY("a velocity");
+  return german ? pl_german(kind) : kind;
 }
 
 // At most `allowed` derivatives: 0 position, 1 velocity.
@@ -217,45 +207,45 @@ static void check_order(pl_job* job, pl_model* m, pl_expr e, int allowed, pl_spa
                         const char* en, const char* de) {
   int dots = pl_max_dots(m->pool, e, job->arena);
   if (dots <= allowed) return;
-  pl_diagnostic* d = pl_tell(job, PL_E057, span,
-                             PL_F(job, "%s cannot contain %s", en, kind_name(dots, false)),
-                             PL_F(job, "%s kann nicht %s enthalten", de, kind_name(dots, true)));
+  pl_diagnostic* d = pl_tell(
+      job, PL_E057, span, PL_F(job, "%s cannot contain %s", en, kind_name(dots, false)),
+      PL_F(job, pl_german("%s cannot contain %s"), de, kind_name(dots, true)));
   pl_report_fix(
-      d, allowed ? "write it with positions and velocities" : "write it with positions only",
-      allowed ? "mit Lagen und Geschwindigkeiten schreiben" : "nur mit Lagen schreiben", NULL);
+      d,
+      PL_BOTH(allowed ? "write it with positions and velocities" : "write it with positions only"),
+      NULL);
 }
 
 static void check_no_multiplier(pl_job* job, pl_model* m, pl_expr e, pl_span span, const char* en,
                                 const char* de) {
   if (pl_is_poison(e) || !pl_has_role(m->pool, e, PL_R_MULTIPLIER)) return;
   pl_diagnostic* d = pl_tell(job, PL_E057, span, PL_F(job, "%s cannot contain a multiplier", en),
-                             PL_F(job, "%s kann keinen Multiplikator enthalten", de));
-  pl_report_fix(d, "multipliers may stand in `force`, `event`, `ask` and `plot`",
-                "Multiplikatoren dürfen in `force`, `event`, `ask` und `plot` stehen", NULL);
+                             PL_F(job, pl_german("%s cannot contain a multiplier"), de));
+  pl_report_fix(d, PL_BOTH("multipliers may stand in `force`, `event`, `ask` and `plot`"), NULL);
 }
 
 static void check_point(pl_job* job, pl_model* m, const pl_point* p, pl_span span) {
   for (int k = 0; k < p->n && k < 3; k++) {
-    check_value(job, p->at[k], span, "a component of this point", "eine Komponente dieses Punktes");
-    check_order(job, m, p->at[k], 0, span, "a point", "ein Punkt");
-    check_no_multiplier(job, m, p->at[k], span, "a point", "ein Punkt");
+    check_value(job, p->at[k], span, PL_BOTH("a component of this point"));
+    check_order(job, m, p->at[k], 0, span, PL_BOTH("a point"));
+    check_no_multiplier(job, m, p->at[k], span, PL_BOTH("a point"));
   }
 }
 
 static void check_mass_expression(pl_job* job, pl_model* m, pl_expr e, pl_span span) {
-  check_value(job, e, span, "this mass", "diese Masse");
+  check_value(job, e, span, PL_BOTH("this mass"));
   if (pl_is_poison(e)) return;
   bool time = pl_has_symbol(m->pool, e, pl_time(m->pool));
   if (!time && !pl_has_coordinate(m->pool, e, job->arena)
       && !pl_has_role(m->pool, e, PL_R_MULTIPLIER))
     return;
-  pl_diagnostic* d = pl_tell(job, PL_E056, span,
-                             PL_F(job, "a mass has to be constant, but this one depends on %s",
-                                  time ? "time" : "the motion"),
-                             PL_F(job, "eine Masse muss konstant sein, diese hängt von der %s ab",
-                                  time ? "Zeit" : "Bewegung"));
-  pl_report_fix(d, "write the kinetic energy yourself: kinetic 1/2 M(x) x'^2",
-                "die kinetische Energie selbst schreiben: kinetic 1/2 M(x) x'^2", NULL);
+  pl_diagnostic* d = pl_tell(
+      job, PL_E056, span,
+      PL_F(job, "a mass has to be constant, but this one depends on %s",
+           time ? "time" : "the motion"),
+      PL_F(job, pl_german("a mass has to be constant, but this one depends on %s"),
+           time ? pl_german("time") : pl_german("the motion")));
+  pl_report_fix(d, PL_BOTH("write the kinetic energy yourself: kinetic 1/2 M(x) x'^2"), NULL);
 }
 
 static void check_masses(pl_job* job, pl_model* m) {
@@ -268,14 +258,14 @@ static void check_masses(pl_job* job, pl_model* m) {
     check_mass_expression(job, m, b->mass, b->span);
     check_mass_expression(job, m, b->inertia, b->span);
     check_point(job, m, &b->centre, b->span);
-    check_value(job, b->angle, b->span, "this angle", "dieser Winkel");
-    check_order(job, m, b->angle, 0, b->span, "the angle of a body", "der Winkel eines Körpers");
+    check_value(job, b->angle, b->span, PL_BOTH("this angle"));
+    check_order(job, m, b->angle, 0, b->span, PL_BOTH("the angle of a body"));
     if (m->n_axes > 2) {  // along one axis it turns about an axis across: a yo-yo
       pl_diagnostic* d = pl_tell(
           job, PL_E035, b->span,
-          PL_F(job, "a body with one angle lives in a plane, but there are %d axes", m->n_axes),
-          PL_F(job, "ein Körper mit einem Winkel lebt in der Ebene, aber es gibt %d Achsen",
-               m->n_axes));
+          PL_BOTH_FORMAT(job->arena,
+                         "a body with one angle lives in a plane, but there are %d axes",
+                         m->n_axes));
       pl_report_fix(d, "axes x right, y up", "axes x right, y up", NULL);
     }
   }
@@ -296,44 +286,38 @@ static void check_load(pl_job* job, pl_model* m, const pl_load* x) {
   check_point(job, m, &x->b, x->span);
   bool between = x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER;
   if (between && same_point(&x->a, &x->b)) {
-    pl_diagnostic* d = pl_tell(job, PL_E064, x->span, "both ends are the same point",
-                               "beide Enden sind derselbe Punkt");
-    pl_report_fix(d, "name two different points", "zwei verschiedene Punkte nennen", NULL);
+    pl_diagnostic* d = pl_tell(job, PL_E064, x->span, PL_BOTH("both ends are the same point"));
+    pl_report_fix(d, PL_BOTH("name two different points"), NULL);
   }
   if (x->kind == PL_L_COUPLE) {
     for (int k = 0; k < 3; k++) {
-      check_value(job, x->vector[k], x->span, "this torque", "dieses Moment");
-      check_order(job, m, x->vector[k], 1, x->span, "a torque", "ein Moment");
+      check_value(job, x->vector[k], x->span, PL_BOTH("this torque"));
+      check_order(job, m, x->vector[k], 1, x->span, PL_BOTH("a torque"));
     }
     return;
   }
   if (x->kind == PL_L_FORCE) {
     for (int k = 0; k < x->a.n && k < 3; k++)
-      check_order(job, m, x->vector[k], 1, x->span, "a force", "eine Kraft");
+      check_order(job, m, x->vector[k], 1, x->span, PL_BOTH("a force"));
     return;
   }
-  check_value(job, x->value, x->span, "this expression", "dieser Ausdruck");
+  check_value(job, x->value, x->span, PL_BOTH("this expression"));
   switch (x->kind) {
-    case PL_L_POTENTIAL:
-      check_order(job, m, x->value, 1, x->span, "a potential", "ein Potential");
-      break;
+    case PL_L_POTENTIAL: check_order(job, m, x->value, 1, x->span, PL_BOTH("a potential")); break;
     case PL_L_KINETIC:
-      check_order(job, m, x->value, 1, x->span, "a kinetic energy", "eine kinetische Energie");
+      check_order(job, m, x->value, 1, x->span, PL_BOTH("a kinetic energy"));
       break;
-    case PL_L_LAGRANGIAN:
-      check_order(job, m, x->value, 1, x->span, "a Lagrangian", "eine Lagrangefunktion");
-      break;
+    case PL_L_LAGRANGIAN: check_order(job, m, x->value, 1, x->span, PL_BOTH("a Lagrangian")); break;
     case PL_L_RAYLEIGH:
-      check_order(job, m, x->value, 1, x->span, "a dissipation function",
-                  "eine Dissipationsfunktion");
+      check_order(job, m, x->value, 1, x->span, PL_BOTH("a dissipation function"));
       break;
     case PL_L_COUPLE: return;
     case PL_L_TORQUE:
-      check_order(job, m, x->value, 1, x->span, "a torque", "ein Moment");
+      check_order(job, m, x->value, 1, x->span, PL_BOTH("a torque"));
       return;  // may hold multipliers
-    default: check_order(job, m, x->value, 0, x->span, "a coefficient", "ein Koeffizient"); break;
+    default: check_order(job, m, x->value, 0, x->span, PL_BOTH("a coefficient")); break;
   }
-  check_no_multiplier(job, m, x->value, x->span, "this expression", "dieser Ausdruck");
+  check_no_multiplier(job, m, x->value, x->span, PL_BOTH("this expression"));
 }
 
 // `lagrangian` says it all: masses and potentials beside it would be counted or forgotten.
@@ -356,14 +340,14 @@ static void check_lagrangian(pl_job* job, pl_model* m) {
     }
   }
   if (!any) return;
-  pl_diagnostic* d = pl_tell(job, PL_E054, lagrangian->span,
-                             "lagrangian stands instead of masses, gravity and potentials",
-                             "lagrangian steht anstelle von Massen, Schwerkraft und Potentialen");
+  pl_diagnostic* d = pl_tell(
+      job, PL_E054, lagrangian->span,
+      PL_BOTH("lagrangian stands instead of masses, gravity and potentials"));
   if (other.source)
-    pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "das auch?" : "this too?");
-  pl_report_fix(d, "write kinetic and potential instead of lagrangian, or remove the others",
-                "kinetic und potential statt lagrangian schreiben, oder die anderen entfernen",
-                NULL);
+    pl_report_label(job->diagnostics, d, other,
+                    job->lang == PL_GERMAN ? pl_german("this too?") : "this too?");
+  pl_report_fix(
+      d, PL_BOTH("write kinetic and potential instead of lagrangian, or remove the others"), NULL);
 }
 
 static void check_two_gravity_users(pl_job* job, pl_model* m) {
@@ -373,10 +357,8 @@ static void check_two_gravity_users(pl_job* job, pl_model* m) {
   }
   if (m->pending.n) return;  // the mass may be in a statement this version does not know
   pl_diagnostic* d = pl_tell(job, PL_N064, m->gravities.at[0].span,
-                             "gravity has no effect: there is no mass",
-                             "die Schwerkraft wirkt auf nichts: es gibt keine Masse");
-  pl_report_fix(d, "add a mass, or write its potential: potential m g y",
-                "eine Masse angeben, oder ihr Potential: potential m g y", NULL);
+                             PL_BOTH("gravity has no effect: there is no mass"));
+  pl_report_fix(d, PL_BOTH("add a mass, or write its potential: potential m g y"), NULL);
 }
 
 static void check_moving(pl_job* job, pl_model* m) {
@@ -390,8 +372,7 @@ static void check_moving(pl_job* job, pl_model* m) {
                                    : (pl_span){0};
   pl_diagnostic* d = pl_tell(
       job, PL_E053, at,
-      physics ? "nothing moves: the model has no coordinate" : "the model is empty",
-      physics ? "nichts bewegt sich: das Modell hat keine Koordinate" : "das Modell ist leer");
+      PL_BOTH(physics ? "nothing moves: the model has no coordinate" : "the model is empty"));
   pl_report_fix(d, "coord x, y", "coord x, y", NULL);
 }
 
@@ -404,81 +385,67 @@ static void check_velocity_constraint(pl_job* job, pl_model* m, pl_constraint* c
     case PL_NO_VELOCITY: return;
     case PL_ACCELERATION:
       d = pl_tell(job, PL_E057, c->span,
-                  PL_F(job, "constraint %s cannot contain an acceleration", name),
-                  PL_F(job, "Zwangsbedingung %s kann keine Beschleunigung enthalten", name));
-      pl_report_fix(d, "write it for positions or velocities",
-                    "für Lagen oder Geschwindigkeiten schreiben", NULL);
+                  PL_BOTH_FORMAT(job->arena, "constraint %s cannot contain an acceleration", name));
+      pl_report_fix(d, PL_BOTH("write it for positions or velocities"), NULL);
       return;
     case PL_NOT_LINEAR:
-      d = pl_tell(job, PL_E039, c->span,
-                  PL_F(job, "constraint %s is not linear in the velocities", name),
-                  PL_F(job, "Zwangsbedingung %s ist nicht linear in den Geschwindigkeiten", name));
-      pl_report_reason(d, "such a constraint has no agreed law for its force",
-                       "für die Zwangskraft gibt es dann kein anerkanntes Gesetz");
-      pl_report_fix(d, "write it linear, as in x' = R φ'", "linear schreiben, wie in x' = R φ'",
-                    NULL);
+      d = pl_tell(
+          job, PL_E039, c->span,
+          PL_BOTH_FORMAT(job->arena, "constraint %s is not linear in the velocities", name));
+      pl_report_reason(d, PL_BOTH("such a constraint has no agreed law for its force"));
+      pl_report_fix(d, PL_BOTH("write it linear, as in x' = R φ'"), NULL);
       return;
     case PL_INTEGRABLE:
-      d = pl_tell(job, PL_N092, c->span,
-                  PL_F(job,
-                       "constraint %s can be integrated: it restricts positions too, up to a "
-                       "constant of the start",
-                       name),
-                  PL_F(job,
-                       "Zwangsbedingung %s ist integrierbar: sie schränkt auch die Lagen ein, bis "
-                       "auf eine Konstante des Starts",
-                       name));
+      d = pl_tell(
+          job, PL_N092, c->span,
+          PL_BOTH_FORMAT(job->arena,
+                         "constraint %s can be integrated: it restricts positions too, up to a "
+                         "constant of the start",
+                         name));
       if (text)
-        pl_report_fix(d, PL_F(job, "as a constraint of positions: %s = constant", text),
-                      PL_F(job, "als Bedingung an die Lagen: %s = Konstante", text), NULL);
+        pl_report_fix(
+            d, PL_BOTH_FORMAT(job->arena, "as a constraint of positions: %s = constant", text),
+            NULL);
       break;
     case PL_NONHOLONOMIC:
-      d = pl_tell(job, PL_N092, c->span,
-                  PL_F(job,
-                       "constraint %s cannot be integrated: it is nonholonomic and restricts "
-                       "velocities only",
-                       name),
-                  PL_F(job,
-                       "Zwangsbedingung %s ist nicht integrierbar: sie ist nichtholonom und "
-                       "schränkt nur die Geschwindigkeiten "
-                       "ein",
-                       name));
+      d = pl_tell(
+          job, PL_N092, c->span,
+          PL_BOTH_FORMAT(job->arena,
+                         "constraint %s cannot be integrated: it is nonholonomic and restricts "
+                         "velocities only",
+                         name));
       break;
   }
   c->has_velocity = true;
   if (c->relation == PL_EQ) return;
   d = pl_tell(
       job, PL_E057, c->span,
-      PL_F(job, "constraint %s is one-sided and cannot contain velocities", name),
-      PL_F(job, "Zwangsbedingung %s ist einseitig und kann keine Geschwindigkeiten enthalten",
-           name));
-  pl_report_fix(d, "write it for positions, or with =", "für Lagen schreiben, oder mit =", NULL);
+      PL_BOTH_FORMAT(job->arena, "constraint %s is one-sided and cannot contain velocities", name));
+  pl_report_fix(d, PL_BOTH("write it for positions, or with ="), NULL);
 }
 
 // Always true, or never: a constraint that does not speak of the motion.
 static void check_constraint(pl_job* job, pl_model* m, pl_constraint* c) {
   const char* name = c->name.text ? c->name.text : "?";
-  check_value(job, c->g, c->span, "this constraint", "diese Zwangsbedingung");
+  check_value(job, c->g, c->span, PL_BOTH("this constraint"));
   if (pl_is_poison(c->g)) return;
-  check_no_multiplier(job, m, c->g, c->span, "a constraint", "eine Zwangsbedingung");
+  check_no_multiplier(job, m, c->g, c->span, PL_BOTH("a constraint"));
   check_velocity_constraint(job, m, c);
   if (pl_is_zero_node(m->pool, c->g)) {
     pl_diagnostic* d = pl_tell(
         job, PL_N053, c->span,
-        PL_F(job, "constraint %s is always true: both sides are the same", name),
-        PL_F(job, "Zwangsbedingung %s gilt immer: beide Seiten sind gleich", name));
-    pl_report_fix(d, "remove it", "entfernen", NULL);
+        PL_BOTH_FORMAT(job->arena, "constraint %s is always true: both sides are the same", name));
+    pl_report_fix(d, PL_BOTH("remove it"), NULL);
     return;
   }
   if (pl_has_coordinate(m->pool, c->g, job->arena) || pl_has_role(m->pool, c->g, PL_R_MULTIPLIER))
     return;
-  pl_diagnostic* d = pl_tell(job, PL_E051, c->span,
-                             PL_F(job, "constraint %s speaks of no coordinate", name),
-                             PL_F(job, "Zwangsbedingung %s enthält keine Koordinate", name));
-  pl_report_reason(d, "so it says nothing about the motion",
-                   "also sagt sie nichts über die Bewegung");
-  pl_report_fix(d, "a relation between given quantities is written with let or assume",
-                "eine Beziehung zwischen gegebenen Größen schreibt man mit let oder assume", NULL);
+  pl_diagnostic* d = pl_tell(
+      job, PL_E051, c->span,
+      PL_BOTH_FORMAT(job->arena, "constraint %s speaks of no coordinate", name));
+  pl_report_reason(d, PL_BOTH("so it says nothing about the motion"));
+  pl_report_fix(d, PL_BOTH("a relation between given quantities is written with let or assume"),
+                NULL);
 }
 
 static const pl_constraint* contact(const pl_model* m, const char* label) {
@@ -492,11 +459,9 @@ static void check_while(pl_job* job, pl_model* m, const pl_constraint* c) {
   if (!other || (other->relation != PL_EQ && other != c)) return;
   pl_diagnostic* d = pl_tell(
       job, PL_E063, c->span,
-      PL_F(job, "`while %s` needs a contact, but %s cannot end", c->while_label, c->while_label),
-      PL_F(job, "`while %s` braucht einen Kontakt, aber %s kann nicht enden", c->while_label,
-           c->while_label));
-  pl_report_fix(d, "name a one-sided constraint (>= or <=)",
-                "eine einseitige Zwangsbedingung (>= oder <=) nennen", NULL);
+      PL_BOTH_FORMAT(job->arena, "`while %s` needs a contact, but %s cannot end", c->while_label,
+                     c->while_label));
+  pl_report_fix(d, PL_BOTH("name a one-sided constraint (>= or <=)"), NULL);
 }
 
 void pl_check_structure(pl_job* job, pl_model* m) {

@@ -126,10 +126,9 @@ static void check_chosen(pl_job* job, use_table* t) {
     const char *name = pl_symbol_get(m->pool, q)->name, *choice = choice_for(job, m, name);
     pl_diagnostic* d = pl_tell(
         job, PL_E058, m->choose.span,
-        PL_F(job, "%s is chosen, but nothing ties it to the other coordinates", name),
-        PL_F(job, "%s ist gewählt, aber nichts verbindet es mit den anderen Koordinaten", name));
-    if (choice)
-      pl_report_fix(d, PL_F(job, "write  %s", choice), PL_F(job, "%s  schreiben", choice), choice);
+        PL_BOTH_FORMAT(job->arena, "%s is chosen, but nothing ties it to the other coordinates",
+                       name));
+    if (choice) pl_report_fix(d, PL_BOTH_FORMAT(job->arena, "write  %s", choice), choice);
     else
       pl_report_fix(d, PL_F(job, "choose %s with x = ... %s ...", name, name),
                     PL_F(job, "choose %s with x = ... %s ...", name, name), NULL);
@@ -148,22 +147,16 @@ static void check_coordinates(pl_job* job, use_table* t) {
     if (!(t->uses[q.id] & in_physics)) {
       pl_diagnostic* d = pl_tell(
           job, PL_N062, at,
-          PL_F(job, "%s is declared, but no mass, force or constraint speaks of it", name),
-          PL_F(job, "%s ist vereinbart, aber keine Masse, Kraft oder Zwangsbedingung spricht davon",
-               name));
-      pl_report_fix(d, PL_F(job, "remove %s, or use it", name),
-                    PL_F(job, "%s entfernen oder benutzen", name), NULL);
+          PL_BOTH_FORMAT(job->arena,
+                         "%s is declared, but no mass, force or constraint speaks of it", name));
+      pl_report_fix(d, PL_BOTH_FORMAT(job->arena, "remove %s, or use it", name), NULL);
     } else if (dynamic && !(t->uses[q.id] & (BIT_INERTIA | BIT_CHOSEN))) {
       pl_diagnostic* d = pl_tell(
           job, PL_N067, at,
-          PL_F(job, "%s carries no mass: its motion has to follow from constraints or forces",
-               name),
-          PL_F(
-              job,
-              "%s trägt keine Masse: seine Bewegung muss aus Zwangsbedingungen oder Kräften folgen",
-              name));
-      pl_report_fix(d, "let a mass or body depend on it, or leave it as it is",
-                    "eine Masse oder einen Körper davon abhängen lassen, oder so lassen", NULL);
+          PL_BOTH_FORMAT(job->arena,
+                         "%s carries no mass: its motion has to follow from constraints or forces",
+                         name));
+      pl_report_fix(d, PL_BOTH("let a mass or body depend on it, or leave it as it is"), NULL);
     }
   }
 }
@@ -174,11 +167,11 @@ static void check_params(pl_job* job, use_table* t) {
     const pl_param* p = &t->m->params.at[i];
     if (t->uses[p->symbol.id]) continue;
     const char* name = pl_symbol_get(t->m->pool, p->symbol)->name;
-    pl_diagnostic* d = pl_tell(job, PL_N063, name_place(t->m, p->symbol, p->span),
-                               PL_F(job, "%s is given, but nothing uses it", name),
-                               PL_F(job, "%s ist gegeben, aber nichts benutzt es", name));
-    pl_report_fix(d, PL_F(job, "remove %s, or look for a slip of the pen", name),
-                  PL_F(job, "%s entfernen, oder nach einem Schreibfehler suchen", name), NULL);
+    pl_diagnostic* d = pl_tell(
+        job, PL_N063, name_place(t->m, p->symbol, p->span),
+        PL_BOTH_FORMAT(job->arena, "%s is given, but nothing uses it", name));
+    pl_report_fix(d, PL_BOTH_FORMAT(job->arena, "remove %s, or look for a slip of the pen", name),
+                  NULL);
   }
 }
 
@@ -202,11 +195,10 @@ static void check_still_masses(pl_job* job, const pl_model* m) {
         still = false;
     }
     if (!still || turns(m, x)) continue;
-    pl_diagnostic* d = pl_tell(job, PL_N065, x->span,
-                               "this mass does not move: its point contains no coordinate",
-                               "diese Masse bewegt sich nicht: ihr Punkt enthält keine Koordinate");
-    pl_report_fix(d, "a fixed point is written: point A at (x, y)",
-                  "ein fester Punkt wird so geschrieben: point A at (x, y)", NULL);
+    pl_diagnostic* d = pl_tell(
+        job, PL_N065, x->span,
+        PL_BOTH("this mass does not move: its point contains no coordinate"));
+    pl_report_fix(d, PL_BOTH("a fixed point is written: point A at (x, y)"), NULL);
   }
 }
 

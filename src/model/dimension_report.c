@@ -86,7 +86,7 @@ static const char* origin_text(pl_dim_pass* d, pl_expr e, pl_language lang) {
   pl_arena* a = d->job->arena;
   pl_symbol s[MAX_SYMBOLS];
   int n = symbols_of(d, e, s);
-  const char* line = lang == PL_GERMAN ? "Zeile" : "line";
+  const char* line = lang == PL_GERMAN ? pl_german("line") : "line";
   for (int i = 0; i < n; i++) {
     pl_symbol root = root_of(d, s[i]);
     const pl_dim_var* v = var_of(d, root);
@@ -99,8 +99,9 @@ static const char* origin_text(pl_dim_pass* d, pl_expr e, pl_language lang) {
     }
     pl_span from = origin_of(d, (int)(v - d->system.vars.at));
     if (!from.source) continue;
-    return pl_format(a, lang == PL_GERMAN ? "  (%s aus Zeile %d: %s)" : "  (%s from line %d: %s)",
-                     name, pl_span_place(from).line, quoted(a, from));
+    return pl_format(
+        a, lang == PL_GERMAN ? pl_german("  (%s from line %d: %s)") : "  (%s from line %d: %s)",
+        name, pl_span_place(from).line, quoted(a, from));
   }
   return "";
 }
@@ -191,7 +192,8 @@ static void suggest_for_side(pl_dim_pass* d, suggestion* best, pl_expr e, const 
 static const char* line_and_unit(pl_dim_pass* d, const suggestion* s, bool german) {
   const char* unit = pl_dimension_unit(d->job->arena, s->dimension, false);
   if (!s->line) return pl_format(d->job->arena, "(%s)", unit);
-  return pl_format(d->job->arena, german ? "(Zeile %d, %s)" : "(line %d, %s)", s->line, unit);
+  return pl_format(d->job->arena, german ? pl_german("(line %d, %s)") : "(line %d, %s)", s->line,
+                   unit);
 }
 
 // --------------------------------------------------------------------------------------- sentences
@@ -218,26 +220,26 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
   if (c->kind == PL_CLASH_NEED) {
     if (a_en) {
       *en = pl_format(a, "%s, but %s is %s", c->what[0], text_of(d, c->a), a_en);
-      *de = pl_format(a, "%s, aber %s ist %s", c->what[1], text_of(d, c->a), a_de);
+      *de = pl_format(a, pl_german("%s, but %s is %s"), c->what[1], text_of(d, c->a), a_de);
     } else {
       *en = pl_format(a, "%s, and %s cannot be that", c->what[0], text_of(d, c->a));
-      *de = pl_format(a, "%s, und %s kann das nicht sein", c->what[1], text_of(d, c->a));
+      *de = pl_format(a, pl_german("%s, and %s cannot be that"), c->what[1], text_of(d, c->a));
     }
     return;
   }
   bool sum = c->kind == PL_CLASH_SUM;
   if (a_en && b_en) {
     *en = pl_format(a, sum ? "%s and %s cannot be added" : "%s cannot equal %s", a_en, b_en);
-    *de = pl_format(a, sum ? "%s und %s lassen sich nicht addieren" : "links steht %s, rechts %s",
-                    a_de, b_de);
+    *de = pl_format(a, pl_german(sum ? "%s and %s cannot be added" : "%s cannot equal %s"), a_de,
+                    b_de);
     return;
   }
   pl_dimension ratio;
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
   if (!pl_dim_known(&d->system, gap, &ratio)) {
-    *en = sum ? "the units of these terms do not fit" : "the units of these sides do not fit";
-    *de = sum ? "die Einheiten dieser Terme passen nicht zusammen"
-              : "die Einheiten dieser Seiten passen nicht zusammen";
+    *en = sum ? PL_KEY("the units of these terms do not fit")
+              : PL_KEY("the units of these sides do not fit");
+    *de = pl_german(*en);
     return;
   }
   const char* unit = pl_dimension_unit(a, ratio, false);
@@ -245,11 +247,10 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
                   sum ? "these terms cannot be added: their units differ by %s"
                       : "these sides cannot be equal: their units differ by %s",
                   unit);
-  *de = pl_format(
-      a,
-      sum ? "diese Terme lassen sich nicht addieren: ihre Einheiten unterscheiden sich um %s"
-          : "diese Seiten können nicht gleich sein: ihre Einheiten unterscheiden sich um %s",
-      unit);
+  *de = pl_format(a,
+                  pl_german(sum ? "these terms cannot be added: their units differ by %s"
+                                : "these sides cannot be equal: their units differ by %s"),
+                  unit);
 }
 
 // ------------------------------------------------------------------------------------------ places
@@ -344,11 +345,9 @@ static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* i
   if (pl_dimension_equal(gap, pl_dimension_one())) return false;
   const char* unit = pl_dimension_unit(d->job->arena, gap, false);
   const char* text = text_of(d, number);
-  pl_report_fix(m,
-                pl_format(d->job->arena, "if the number has a unit, write it: %s [%s]", text, unit),
-                pl_format(d->job->arena,
-                          "wenn die Zahl eine Einheit hat, sie dazuschreiben: %s [%s]", text, unit),
-                NULL);
+  pl_report_fix(
+      m, PL_BOTH_FORMAT(d->job->arena, "if the number has a unit, write it: %s [%s]", text, unit),
+      NULL);
   return true;
 }
 
@@ -375,15 +374,13 @@ static void fix_pure_number(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnos
   if (divisor) {
     const char* quotient = pl_format(a, example, name, divisor);
     pl_report_fix(
-        m, pl_format(a, "divide by a quantity of the same unit, for example %s", quotient),
-        pl_format(a, "durch eine Größe derselben Einheit teilen, zum Beispiel %s", quotient), NULL);
+        m, PL_BOTH_FORMAT(a, "divide by a quantity of the same unit, for example %s", quotient),
+        NULL);
   } else {
     pl_report_fix(
         m,
-        pl_format(a, "divide %s by a quantity of the same unit, so that a pure number is left",
-                  name),
-        pl_format(a, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt",
-                  name),
+        PL_BOTH_FORMAT(a, "divide %s by a quantity of the same unit, so that a pure number is left",
+                       name),
         NULL);
   }
 }
@@ -401,7 +398,8 @@ static void fix_need(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m)
                     || pl_is_number(d->pool, pl_unit_to_si(d->pool, c->a));
   const char* name = short_name ? text_of(d, c->a) : NULL;
   pl_report_fix(m, pl_format(d->job->arena, "%s has to be in %s", name ? name : "this", unit),
-                pl_format(d->job->arena, "%s muss die Einheit %s haben", name ? name : "das", unit),
+                pl_format(d->job->arena, pl_german("%s has to be in %s"),
+                          name ? name : pl_german("this"), unit),
                 NULL);
 }
 
@@ -419,18 +417,17 @@ static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic
     if (!pl_dim_known(&d->system, a_is_number ? c->form_b : c->form_a, &x)) return;
     const char* unit = pl_dimension_unit(a, x, false);
     const char* name = text_of(d, a_is_number ? c->b : c->a);
-    pl_report_fix(
-        m, pl_format(a, "%s is in %s: give the number in that unit", name, unit),
-        pl_format(a, "%s hat die Einheit %s: die Zahl in dieser Einheit angeben", name, unit),
-        NULL);
+    pl_report_fix(m, PL_BOTH_FORMAT(a, "%s is in %s: give the number in that unit", name, unit),
+                  NULL);
     return;
   }
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
   if (!pl_dim_known(&d->system, gap, &x)) return;
   const char* unit = pl_dimension_unit(a, x, false);
-  pl_report_fix(
-      m, pl_format(a, "a factor in %s is missing on one side, or one of the units is wrong", unit),
-      pl_format(a, "es fehlt ein Faktor in %s, oder eine der Einheiten ist falsch", unit), NULL);
+  pl_report_fix(m,
+                PL_BOTH_FORMAT(
+                    a, "a factor in %s is missing on one side, or one of the units is wrong", unit),
+                NULL);
 }
 
 static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m,
@@ -446,7 +443,7 @@ static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m
   pl_report_fix(m,
                 pl_format(d->job->arena, "did you mean %s %s%s?", best->name,
                           line_and_unit(d, best, false), instead[0]),
-                pl_format(d->job->arena, "ist %s %s gemeint%s?", best->name,
+                pl_format(d->job->arena, pl_german("did you mean %s %s%s?"), best->name,
                           line_and_unit(d, best, true), instead[1]),
                 found ? best->name : NULL);
   return true;
@@ -555,9 +552,7 @@ void pl_dim_report_bare_numbers(pl_dim_pass* d) {
   const char* more = n > MAX_BARE ? pl_format(a, ", +%d", n - MAX_BARE) : "";
   pl_diagnostic* note = pl_report(
       d->job->diagnostics, PL_N021, found.at[0].span,
-      pl_format(a, "numbers without unit are taken in SI units: %s%s", pl_text_string(&list), more),
-      pl_format(a, "Zahlen ohne Einheit gelten in SI-Einheiten: %s%s", pl_text_string(&list),
-                more));
-  pl_report_fix(note, "write the unit in [ ] to be sure",
-                "die Einheit in [ ] dazuschreiben, um sicherzugehen", NULL);
+      PL_BOTH_FORMAT(a, "numbers without unit are taken in SI units: %s%s", pl_text_string(&list),
+                     more));
+  pl_report_fix(note, PL_BOTH("write the unit in [ ] to be sure"), NULL);
 }

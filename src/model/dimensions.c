@@ -154,8 +154,7 @@ static bool exponent_value(pl_dim_pass* d, pl_expr e, pl_fraction* out) {
 static const pl_dim_form* form_of_power(pl_dim_pass* d, pl_expr e) {
   pl_expr base = pl_arg(d->pool, e, 0), exponent = pl_arg(d->pool, e, 1);
   if (!pl_is_number(d->pool, exponent)) {
-    need(d, exponent, pure(d), PL_E032, "an exponent is a pure number",
-         "ein Exponent ist eine reine Zahl");
+    need(d, exponent, pure(d), PL_E032, PL_BOTH("an exponent is a pure number"));
   }
   if (pl_is_constant_known(d->pool, d->constant, base)) return pure(d);
   pl_fraction f;
@@ -164,8 +163,7 @@ static const pl_dim_form* form_of_power(pl_dim_pass* d, pl_expr e) {
   if (pl_is_number(d->pool, exponent) && !exponent_value(d, exponent, &f)) return anything(d);
   if (exponent_value(d, exponent, &f)) return pl_dim_combine(&d->system, pure(d), f, b);
   need(d, base, pure(d), PL_E032,
-       "what is raised to a power that is not a number has to be a pure number",
-       "was mit einem Exponenten ohne Zahlenwert potenziert wird, ist eine reine Zahl");
+       PL_BOTH("what is raised to a power that is not a number has to be a pure number"));
   return pure(d);
 }
 
@@ -185,8 +183,7 @@ static const pl_dim_form* form_of_call(pl_dim_pass* d, pl_expr e) {
     default: break;
   }
   const char* name = pl_function_name[function];
-  need(d, a, pure(d), PL_E031, pl_format(d->arena, "%s() takes a pure number", name),
-       pl_format(d->arena, "%s() braucht eine reine Zahl", name));
+  need(d, a, pure(d), PL_E031, PL_BOTH_FORMAT(d->arena, "%s() takes a pure number", name));
   return pure(d);
 }
 
@@ -284,8 +281,8 @@ static void walk_declarations(pl_dim_pass* d) {
 static void walk_point(pl_dim_pass* d, const pl_point* p) {
   d->focus = p->span;
   for (int k = 0; k < p->n && k < 3; k++) {
-    need(d, p->at[k], mechanical(d, 1, 0, 0), PL_E033, "a component of a point is a length",
-         "eine Komponente eines Punktes ist eine Länge");
+    need(d, p->at[k], mechanical(d, 1, 0, 0), PL_E033,
+         PL_BOTH("a component of a point is a length"));
   }
   d->focus = (pl_span){0};
 }
@@ -300,32 +297,31 @@ static void walk_masses(pl_dim_pass* d) {
     const pl_mass* x = &m->masses.at[i];
     d->where = x->span;
     joule(d);
-    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033, "what stands after `mass` is a mass",
-         "nach `mass` steht eine Masse");
+    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033,
+         PL_BOTH("what stands after `mass` is a mass"));
     walk_point(d, &x->point);
   }
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* x = &m->bodies.at[i];
     d->where = x->span;
     joule(d);
-    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033, "what stands after `mass` is a mass",
-         "nach `mass` steht eine Masse");
-    need(d, x->inertia, mechanical(d, 2, 1, 0), PL_E033, "a moment of inertia is in kg m²",
-         "ein Trägheitsmoment hat die Einheit kg m²");
-    need(d, x->angle, pure(d), PL_E033, "the angle of a body is a pure number",
-         "der Winkel eines Körpers ist eine reine Zahl");
+    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033,
+         PL_BOTH("what stands after `mass` is a mass"));
+    need(d, x->inertia, mechanical(d, 2, 1, 0), PL_E033,
+         PL_BOTH("a moment of inertia is in kg m²"));
+    need(d, x->angle, pure(d), PL_E033, PL_BOTH("the angle of a body is a pure number"));
     walk_point(d, &x->centre);
   }
   for (int i = 0; i < m->spatials.n; i++) {
     const pl_spatial* x = &m->spatials.at[i];
     d->where = x->span;
     for (int k = 0; k < 6; k++) {
-      need(d, x->inertia[k], mechanical(d, 2, 1, 0), PL_E033, "a moment of inertia is in kg m²",
-           "ein Trägheitsmoment hat die Einheit kg m²");
+      need(d, x->inertia[k], mechanical(d, 2, 1, 0), PL_E033,
+           PL_BOTH("a moment of inertia is in kg m²"));
     }
     for (int k = 0; k < 9 && !pl_is_poison(x->axes[k]); k++) {
-      need(d, x->axes[k], pure(d), PL_E033, "what gives the axes of a body is a pure number",
-           "was die Achsen eines Körpers angibt, ist eine reine Zahl");
+      need(d, x->axes[k], pure(d), PL_E033,
+           PL_BOTH("what gives the axes of a body is a pure number"));
     }
   }
   for (int i = 0; i < m->points.n; i++) {
@@ -334,8 +330,8 @@ static void walk_masses(pl_dim_pass* d) {
   }
   for (int i = 0; i < m->gravities.n; i++) {
     d->where = m->gravities.at[i].span;
-    need(d, m->gravities.at[i].g, mechanical(d, 1, 0, -2), PL_E033, "gravity is an acceleration",
-         "`gravity` ist eine Beschleunigung");
+    need(d, m->gravities.at[i].g, mechanical(d, 1, 0, -2), PL_E033,
+         PL_BOTH("gravity is an acceleration"));
   }
 }
 
@@ -349,49 +345,45 @@ static void walk_load(pl_dim_pass* d, const pl_load* x) {
     case PL_L_FORCE:
       joule(d);
       for (int k = 0; k < x->a.n && k < 3; k++) {
-        need(d, x->vector[k], energy_over(d, 1, 0), PL_E033, "a component of a force is in N",
-             "eine Komponente einer Kraft hat die Einheit N");
+        need(d, x->vector[k], energy_over(d, 1, 0), PL_E033,
+             PL_BOTH("a component of a force is in N"));
       }
       walk_point(d, &x->a);
       return;
     case PL_L_COUPLE:
       joule(d);
       for (int k = 0; k < 3; k++) {
-        need(d, x->vector[k], energy(d), PL_E033, "a component of a torque is in N m",
-             "eine Komponente eines Moments hat die Einheit N m");
+        need(d, x->vector[k], energy(d), PL_E033, PL_BOTH("a component of a torque is in N m"));
         need(d, x->spin[k], times(d, pure(d), -1, duration(d)), PL_E033,
-             "an angular velocity is an angle over time",
-             "eine Winkelgeschwindigkeit ist Winkel durch Zeit");
+             PL_BOTH("an angular velocity is an angle over time"));
       }
       return;
     case PL_L_TORQUE: {
       const pl_dim_form* wanted = energy(d);
       if (x->coordinate.id) wanted = times(d, wanted, -1, form_of_symbol(d, x->coordinate, 0));
-      need(d, x->value, wanted, PL_E033, "torque times its coordinate is an energy",
-           "Moment mal Koordinate ist eine Energie");
+      need(d, x->value, wanted, PL_E033, PL_BOTH("torque times its coordinate is an energy"));
       return;
     }
     case PL_L_POTENTIAL:
     case PL_L_KINETIC:
     case PL_L_LAGRANGIAN:
-      need(d, x->value, energy(d), PL_E033, "this is an energy", "das ist eine Energie");
+      need(d, x->value, energy(d), PL_E033, PL_BOTH("this is an energy"));
       return;
     case PL_L_RAYLEIGH:
-      need(d, x->value, energy_over(d, 0, 1), PL_E033, "a dissipation function is a power",
-           "eine Dissipationsfunktion ist eine Leistung");
+      need(d, x->value, energy_over(d, 0, 1), PL_E033,
+           PL_BOTH("a dissipation function is a power"));
       return;
     case PL_L_SPRING:
       joule(d);
-      need(d, x->value, energy_over(d, 2, 0), PL_E033, "the stiffness of a spring is in N/m",
-           "eine Federsteifigkeit hat die Einheit N/m");
-      need(d, x->rest, mechanical(d, 1, 0, 0), PL_E033, "a rest length is a length",
-           "eine Ruhelänge ist eine Länge");
+      need(d, x->value, energy_over(d, 2, 0), PL_E033,
+           PL_BOTH("the stiffness of a spring is in N/m"));
+      need(d, x->rest, mechanical(d, 1, 0, 0), PL_E033, PL_BOTH("a rest length is a length"));
       break;
     case PL_L_DAMPER:
     case PL_L_DRAG:
       joule(d);
-      need(d, x->value, energy_over(d, 2, -1), PL_E033, "a damping coefficient is in N s/m",
-           "eine Dämpfungskonstante hat die Einheit N s/m");
+      need(d, x->value, energy_over(d, 2, -1), PL_E033,
+           PL_BOTH("a damping coefficient is in N s/m"));
       break;
   }
   walk_point(d, &x->a);
@@ -446,13 +438,12 @@ static void walk_simulate(pl_dim_pass* d) {
   d->where = m->simulate.span;
   const pl_expr times_of[] = {m->simulate.from, m->simulate.to, m->simulate.step};
   for (int i = 0; i < 3 && m->simulate.given; i++) {
-    need(d, times_of[i], duration(d), PL_E033, "a simulation runs over time",
-         "eine Simulation läuft über die Zeit");
+    need(d, times_of[i], duration(d), PL_E033, PL_BOTH("a simulation runs over time"));
   }
   for (int i = 0; i < m->inits.n; i++) {
     d->where = m->inits.at[i].span;
-    need(d, m->inits.at[i].time, duration(d), PL_E033, "what stands after `init at` is a time",
-         "nach `init at` steht eine Zeit");
+    need(d, m->inits.at[i].time, duration(d), PL_E033,
+         PL_BOTH("what stands after `init at` is a time"));
   }
 }
 
@@ -515,18 +506,16 @@ static void walk_contacts(pl_dim_pass* d) {
   for (int i = 0; i < m->restitutions.n; i++) {
     d->where = m->restitutions.at[i].span;
     need(d, m->restitutions.at[i].value, pure(d), PL_E033,
-         "a coefficient of restitution is a number", "eine Stoßzahl ist eine Zahl");
+         PL_BOTH("a coefficient of restitution is a number"));
   }
   for (int i = 0; i < m->frictions.n; i++) {
     const pl_friction* f = &m->frictions.at[i];
     d->where = f->span;
-    need(d, f->kinetic, pure(d), PL_E033, "a coefficient of friction is a number",
-         "ein Reibungskoeffizient ist eine Zahl");
-    need(d, f->sticking, pure(d), PL_E033, "a coefficient of friction is a number",
-         "ein Reibungskoeffizient ist eine Zahl");
+    need(d, f->kinetic, pure(d), PL_E033, PL_BOTH("a coefficient of friction is a number"));
+    need(d, f->sticking, pure(d), PL_E033, PL_BOTH("a coefficient of friction is a number"));
     for (int k = 0; k < f->surface.n; k++)
-      need(d, f->surface.at[k], mechanical(d, 1, 0, -1), PL_E033, "a surface has a velocity",
-           "eine Fläche hat eine Geschwindigkeit");
+      need(d, f->surface.at[k], mechanical(d, 1, 0, -1), PL_E033,
+           PL_BOTH("a surface has a velocity"));
     walk_point(d, &f->at);
   }
 }

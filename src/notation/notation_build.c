@@ -471,7 +471,8 @@ static pl_box* build_leaf(pl_builder* b, pl_expr e) {
     return build_measure(b, pl_symbol_get(b->pool, pl_symbol_of(b->pool, e)));
   switch (pl_kind_of(b->pool, e)) {
     case PL_POISON:
-      return pl_box_text(a, PL_B_PROSE, b->how.lang == PL_GERMAN ? "nicht definiert" : "undefined");
+      return pl_box_text(a, PL_B_PROSE,
+                         b->how.lang == PL_GERMAN ? pl_german("undefined") : "undefined");
     case PL_NUMBER: return build_number(b, e);
     case PL_PI: return pl_box_text(a, PL_B_NAME, b->how.math == PL_MATH_ASCII ? "pi" : "π");
     case PL_INFINITY: return pl_box_text(a, PL_B_NAME, b->how.math == PL_MATH_ASCII ? "inf" : "∞");

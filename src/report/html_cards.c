@@ -23,27 +23,24 @@ static void put_freedom(pl_html* h) {
   int one_sided = count_one_sided(h->s), implied = d->constraints - d->rank;
   open_card(h, "");
   pl_html_rawf(h, "%s</h3><p class=\"big\">%d</p><p>",
-               pl_html_say(h, "Degrees of freedom", "Freiheitsgrade"), d->dof);
+               pl_html_say(h, PL_BOTH("Degrees of freedom")), d->dof);
   pl_html_rawf(h,
-               d->coordinates == 1 ? pl_html_say(h, "%d coordinate", "%d Koordinate")
-                                   : pl_html_say(h, "%d coordinates", "%d Koordinaten"),
+               d->coordinates == 1 ? pl_html_say(h, PL_BOTH("%d coordinate"))
+                                   : pl_html_say(h, PL_BOTH("%d coordinates")),
                d->coordinates);
   pl_html_raw(h, ", ");
   pl_html_rawf(h,
-               d->constraints == 1 ? pl_html_say(h, "%d constraint", "%d Zwangsbedingung")
-                                   : pl_html_say(h, "%d constraints", "%d Zwangsbedingungen"),
+               d->constraints == 1 ? pl_html_say(h, PL_BOTH("%d constraint"))
+                                   : pl_html_say(h, PL_BOTH("%d constraints")),
                d->constraints);
   if (one_sided > 0 && one_sided == d->constraints)
-    pl_html_raw(h, pl_html_say(h, ", one-sided", ", einseitig"));
-  else if (one_sided > 0)
-    pl_html_rawf(h, pl_html_say(h, ", %d one-sided", ", davon %d einseitig"), one_sided);
-  if (d->open > 0) pl_html_rawf(h, pl_html_say(h, ", %d open", ", %d offen"), d->open);
+    pl_html_raw(h, pl_html_say(h, PL_BOTH(", one-sided")));
+  else if (one_sided > 0) pl_html_rawf(h, pl_html_say(h, PL_BOTH(", %d one-sided")), one_sided);
+  if (d->open > 0) pl_html_rawf(h, pl_html_say(h, PL_BOTH(", %d open")), d->open);
   if (d->velocity_dof != d->dof)
-    pl_html_rawf(h, pl_html_say(h, "; %d for velocities", "; %d für Geschwindigkeiten"),
-                 d->velocity_dof);
+    pl_html_rawf(h, pl_html_say(h, PL_BOTH("; %d for velocities")), d->velocity_dof);
   else if (implied > 0)
-    pl_html_rawf(h, pl_html_say(h, ", %d follow from the others", ", %d folgen aus den anderen"),
-                 implied);
+    pl_html_rawf(h, pl_html_say(h, PL_BOTH(", %d follow from the others")), implied);
   pl_html_raw(h, "</p></div>\n");
 }
 
@@ -154,23 +151,18 @@ static void put_checks(pl_html* h) {
   }
   bool all = passed == n && !h->s->expect_failed;
   open_card(h, all ? " ok" : " bad");
-  pl_html_rawf(h, "%s</h3><p class=\"big\">", pl_html_say(h, "Checks", "Proben"));
-  pl_html_rawf(h, pl_html_say(h, "%d of %d passed", "%d von %d bestanden"), passed, n);
+  pl_html_rawf(h, "%s</h3><p class=\"big\">", pl_html_say(h, PL_BOTH("Checks")));
+  pl_html_rawf(h, pl_html_say(h, PL_BOTH("%d of %d passed")), passed, n);
   pl_html_raw(h, "</p><p>");
   if (h->s->expect_failed)
-    pl_html_raw(h, pl_html_say(h, "but an <code>expect</code> of the model is false",
-                               "aber ein <code>expect</code> des Modells ist falsch"));
-  else
-    pl_html_rawf(h,
-                 pl_html_say(h, "%d formulas compared with the model",
-                             "%d Formeln mit dem Modell verglichen"),
-                 formulas);
+    pl_html_raw(h, pl_html_say(h, PL_BOTH("but an <code>expect</code> of the model is false")));
+  else pl_html_rawf(h, pl_html_say(h, PL_BOTH("%d formulas compared with the model")), formulas);
   pl_html_raw(h, "</p></div>\n");
 }
 
 void pl_html_cards(pl_html* h) {
   pl_html_rawf(h, "<section id=\"result\"><h2 class=\"vh\">%s</h2><div class=\"cards\">\n",
-               pl_html_say(h, "Result in brief", "Ergebnis in Kürze"));
+               pl_html_say(h, PL_BOTH("Result in brief")));
   put_freedom(h);
   put_results(h);
   put_checks(h);

@@ -8,10 +8,9 @@
 
 // ------------------------------------------------------------------------------------------ checks
 static const char* verdict(const pl_html* h, bool passed) {
-  return passed ? pl_format(h->arena, "<td class=\"pass\">%s</td>",
-                            pl_html_say(h, "passed", "bestanden"))
-                : pl_format(h->arena, "<td class=\"fail\">%s</td>",
-                            pl_html_say(h, "failed", "fehlgeschlagen"));
+  return passed
+             ? pl_format(h->arena, "<td class=\"pass\">%s</td>", pl_html_say(h, PL_BOTH("passed")))
+             : pl_format(h->arena, "<td class=\"fail\">%s</td>", pl_html_say(h, PL_BOTH("failed")));
 }
 
 static void put_check(pl_html* h, const char* what, const char* how, const char* worst,
@@ -35,19 +34,16 @@ static const char* power(const pl_html* h, double x) {
 
 static const char* how_checked(const pl_html* h, const pl_check* c) {
   if (!c->passed && c->failed_on)
-    return pl_format(h->arena, pl_html_say(h, "at %s", "bei %s"), c->failed_on);
+    return pl_format(h->arena, pl_html_say(h, PL_BOTH("at %s")), c->failed_on);
   if (c->formulas > 0 && c->points > 0) {
-    return pl_format(
-        h->arena,
-        pl_html_say(h, "%d formulas at %d random points", "%d Formeln an %d Zufallspunkten"),
-        c->formulas, c->points);
+    return pl_format(h->arena, pl_html_say(h, PL_BOTH("%d formulas at %d random points")),
+                     c->formulas, c->points);
   }
   if (c->formulas > 0)
-    return pl_format(h->arena, pl_html_say(h, "%d formulas, exactly", "%d Formeln, exakt"),
-                     c->formulas);
+    return pl_format(h->arena, pl_html_say(h, PL_BOTH("%d formulas, exactly")), c->formulas);
   if (c->points > 0)
-    return pl_format(h->arena, pl_html_say(h, "%d random points", "%d Zufallspunkte"), c->points);
-  return pl_html_say(h, "every equation of the model", "alle Gleichungen des Modells");
+    return pl_format(h->arena, pl_html_say(h, PL_BOTH("%d random points")), c->points);
+  return pl_html_say(h, PL_BOTH("every equation of the model"));
 }
 
 static void put_expectations(pl_html* h) {
@@ -56,8 +52,7 @@ static void put_expectations(pl_html* h) {
     for (int k = 0; k < c->values.n; k++) {
       const pl_value* v = &c->values.at[k];
       if (v->passed < 0 || !c->item || strncmp(c->item, "expect", 6) != 0) continue;
-      put_check(h, c->item, pl_html_say(h, "claimed by the model", "Behauptung des Modells"), "",
-                v->passed == 1);
+      put_check(h, c->item, pl_html_say(h, PL_BOTH("claimed by the model")), "", v->passed == 1);
     }
   }
 }
@@ -66,34 +61,29 @@ static void put_motion_checks(pl_html* h) {
   const pl_result* r = h->in->result;
   if (!r || r->rows.n == 0) return;
   const pl_stats* s = &r->stats;
-  const char* how = pl_format(
-      h->arena, pl_html_say(h, "all %ld steps of order %d", "alle %ld Schritte der Ordnung %d"),
-      s->steps, s->order);
+  const char* how = pl_format(h->arena, pl_html_say(h, PL_BOTH("all %ld steps of order %d")),
+                              s->steps, s->order);
   bool constrained = s->rank_start > 0 || s->max_g > 0;
   if (constrained) {
-    put_check(h,
-              pl_html_say(h, "Simulation: constraints, relative to their terms",
-                          "Simulation: Zwangsbedingungen, relativ zu ihren Termen"),
-              how, power(h, s->max_g), s->max_g < 1e-9);
-    put_check(
-        h, pl_html_say(h, "Simulation: their time derivatives", "Simulation: ihre Zeitableitungen"),
-        how, power(h, s->max_gdot), s->max_gdot < 1e-8);
+    put_check(h, pl_html_say(h, PL_BOTH("Simulation: constraints, relative to their terms")), how,
+              power(h, s->max_g), s->max_g < 1e-9);
+    put_check(h, pl_html_say(h, PL_BOTH("Simulation: their time derivatives")), how,
+              power(h, s->max_gdot), s->max_gdot < 1e-8);
   }
   if (h->in->energy_conserved && !isnan(s->energy_drift)) {
-    put_check(h, pl_html_say(h, "Simulation: energy, relative", "Simulation: Energie, relativ"),
-              how, power(h, s->energy_drift), s->energy_drift < 1e-6);
+    put_check(h, pl_html_say(h, PL_BOTH("Simulation: energy, relative")), how,
+              power(h, s->energy_drift), s->energy_drift < 1e-6);
   }
 }
 
 void pl_html_checks(pl_html* h) {
   pl_html_rawf(h, "<section id=\"checks\"><h2>%s</h2>\n<div class=\"scroll\"><table>\n",
-               pl_html_say(h, "Checks", "Proben"));
+               pl_html_say(h, PL_BOTH("Checks")));
   pl_html_rawf(h,
                "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" "
                "class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
-               pl_html_say(h, "What", "Was"), pl_html_say(h, "How", "Wie"),
-               pl_html_say(h, "Largest deviation", "Größte Abweichung"),
-               pl_html_say(h, "Verdict", "Urteil"));
+               pl_html_say(h, PL_BOTH("What")), pl_html_say(h, PL_BOTH("How")),
+               pl_html_say(h, PL_BOTH("Largest deviation")), pl_html_say(h, PL_BOTH("Verdict")));
   for (int i = 0; i < h->s->checks.n; i++) {
     const pl_check* c = &h->s->checks.at[i];
     put_check(h, pl_html_words(h, c->name), how_checked(h, c),
@@ -103,7 +93,7 @@ void pl_html_checks(pl_html* h) {
   put_motion_checks(h);
   pl_html_raw(h, "</tbody></table></div>\n");
   if (h->s->used.n > 0) {
-    pl_html_rawf(h, "<p class=\"hint\">%s ", pl_html_say(h, "Used:", "Benutzt:"));
+    pl_html_rawf(h, "<p class=\"hint\">%s ", pl_html_say(h, PL_BOTH("Used:")));
     for (int i = 0; i < h->s->used.n; i++) {
       pl_html_raw(h, i ? ", " : "");
       pl_html_text(h, h->s->used.at[i]);
@@ -115,7 +105,7 @@ void pl_html_checks(pl_html* h) {
 
 // -------------------------------------------------------------------------------------- last lines
 void pl_html_colophon(pl_html* h) {
-  pl_html_rawf(h, "<footer><p>%s ", pl_html_say(h, "Made with", "Erstellt mit"));
+  pl_html_rawf(h, "<footer><p>%s ", pl_html_say(h, PL_BOTH("Made with")));
   if (h->in->command) {
     pl_html_raw(h, "<code>");
     pl_html_text(h, h->in->command);
@@ -123,26 +113,22 @@ void pl_html_colophon(pl_html* h) {
   }
   pl_html_rawf(h, "pleuel %s", PLEUEL_VERSION);
   if (h->in->result && h->in->tol > 0) {
-    pl_html_rawf(
-        h, " · %s %s",
-        pl_html_say(h, "Taylor series, relative tolerance", "Taylorreihen, relative Toleranz"),
-        power(h, h->in->tol));
+    pl_html_rawf(h, " · %s %s", pl_html_say(h, PL_BOTH("Taylor series, relative tolerance")),
+                 power(h, h->in->tol));
   }
   const pl_source* source = h->model ? h->model->source : NULL;
   if (source) {
     unsigned char hash[32];
     pl_sha256(hash, source->text, source->size);
     pl_html_rawf(h, " · %s SHA-256 <code class=\"hash\">%s</code>",
-                 pl_html_say(h, "model", "Modell"), pl_hex_text(h->arena, hash, sizeof hash));
+                 pl_html_say(h, PL_BOTH("model")), pl_hex_text(h->arena, hash, sizeof hash));
   }
-  pl_html_rawf(h, "<br>%s</p>",
-               pl_html_say(h, "This file needs no network.", "Diese Datei braucht kein Netz."));
+  pl_html_rawf(h, "<br>%s</p>", pl_html_say(h, PL_BOTH("This file needs no network.")));
   if (!h->in->no_font) {
     pl_html_rawf(
         h, "<p>%s</p>",
         pl_html_say(
-            h, "Formulas are set in a subset of STIX Math (SIL Open Font License 1.1).",
-            "Die Formeln sind in einem Auszug der STIX Math gesetzt (SIL Open Font License 1.1)."));
+            h, PL_BOTH("Formulas are set in a subset of STIX Math (SIL Open Font License 1.1).")));
   }
   pl_html_raw(h, "</footer>\n");
 }

@@ -99,7 +99,7 @@ static void put_equation(pl_html* h, const pl_section* c, const pl_step* s) {
   put_beside(h, s);
   if (s->number > 0)
     pl_html_rawf(h, "<a class=\"no\" href=\"#eq-%d\">(%d)</a>", s->number, s->number);
-  const char* copy = pl_html_say(h, "Copy as LaTeX", "Als LaTeX kopieren");
+  const char* copy = pl_html_say(h, PL_BOTH("Copy as LaTeX"));
   pl_html_rawf(h, "<button type=\"button\" class=\"cp\" aria-label=\"%s\">TeX</button></div>\n",
                copy);
 }
@@ -153,7 +153,7 @@ static void put_words(pl_html* h, const char* open, const pl_step* s, const char
 }
 
 static void put_note(pl_html* h, const pl_step* s) {
-  pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ", pl_html_say(h, "Note.", "Hinweis."));
+  pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ", pl_html_say(h, PL_BOTH("Note.")));
   put_words(h, "", s, "</p>\n");
 }
 
@@ -175,7 +175,7 @@ static void put_steps(pl_html* h, const pl_section* c) {
   for (int i = 0; i < c->steps.n;) {
     bool detail = c->steps.at[i].detail;
     if (detail && !open) {
-      pl_html_rawf(h, "<details><summary>%s</summary>\n", pl_html_say(h, "Why?", "Warum?"));
+      pl_html_rawf(h, "<details><summary>%s</summary>\n", pl_html_say(h, PL_BOTH("Why?")));
     }
     if (!detail && open) pl_html_raw(h, "</details>\n");
     open = detail;
@@ -203,7 +203,7 @@ static void put_notes(pl_html* h) {
     if (pl_code_severity(d->code) == PL_ERROR || told_by_step(h->s, pl_code_name(d->code)))
       continue;
     const char* reason = d->reason[h->lang];
-    pl_html_rawf(h, "<p class=\"note\"><b>%s %s.</b> ", pl_html_say(h, "Note", "Hinweis"),
+    pl_html_rawf(h, "<p class=\"note\"><b>%s %s.</b> ", pl_html_say(h, PL_BOTH("Note")),
                  pl_code_name(d->code));
     pl_html_text(h, d->sentence[h->lang]);
     if (reason && *reason) {
@@ -216,7 +216,7 @@ static void put_notes(pl_html* h) {
 
 void pl_html_derivation(pl_html* h) {
   pl_html_rawf(h, "<section id=\"derivation\"><h2>%s</h2>\n",
-               pl_html_say(h, "Derivation", "Herleitung"));
+               pl_html_say(h, PL_BOTH("Derivation")));
   for (int i = 0; i < h->s->sections.n; i++) {
     const pl_section* c = &h->s->sections.at[i];
     if (!wanted(h, i)) continue;

@@ -86,13 +86,12 @@ static bool is_symbol(const pl_html* h, pl_expr e, pl_symbol s) {
 
 static const char* load_meaning(pl_html* h, const pl_load* l, pl_symbol s) {
   if (l->kind == PL_L_SPRING && is_symbol(h, l->value, s))
-    return pl_html_say(h, "stiffness of a spring", "Federkonstante");
+    return pl_html_say(h, PL_BOTH("stiffness of a spring"));
   if (l->kind == PL_L_SPRING && is_symbol(h, l->rest, s))
-    return pl_html_say(h, "length of a spring at rest", "Ruhelänge einer Feder");
+    return pl_html_say(h, PL_BOTH("length of a spring at rest"));
   if (l->kind == PL_L_DAMPER && is_symbol(h, l->value, s))
-    return pl_html_say(h, "damping", "Dämpfung");
-  if (l->kind == PL_L_DRAG && is_symbol(h, l->value, s))
-    return pl_html_say(h, "drag", "Luftwiderstand");
+    return pl_html_say(h, PL_BOTH("damping"));
+  if (l->kind == PL_L_DRAG && is_symbol(h, l->value, s)) return pl_html_say(h, PL_BOTH("drag"));
   return NULL;
 }
 
@@ -101,20 +100,20 @@ static const char* use_of(pl_html* h, pl_symbol s) {
   const pl_model* m = h->model;
   for (int i = 0; i < m->gravities.n; i++) {
     if (is_symbol(h, m->gravities.at[i].g, s))
-      return pl_html_say(h, "acceleration of gravity", "Fallbeschleunigung");
+      return pl_html_say(h, PL_BOTH("acceleration of gravity"));
   }
   for (int i = 0; i < m->masses.n; i++) {
     const pl_mass* p = &m->masses.at[i];
     if (!is_symbol(h, p->mass, s)) continue;
     if (p->name.generated || !p->name.text
         || strcmp(p->name.text, pl_symbol_get(h->pool, s)->name) == 0)
-      return pl_html_say(h, "mass", "Masse");
-    return pl_format(h->arena, pl_html_say(h, "mass of %s", "Masse von %s"), p->name.text);
+      return pl_html_say(h, PL_BOTH("mass"));
+    return pl_format(h->arena, pl_html_say(h, PL_BOTH("mass of %s")), p->name.text);
   }
   for (int i = 0; i < m->bodies.n; i++) {
-    if (is_symbol(h, m->bodies.at[i].mass, s)) return pl_html_say(h, "mass", "Masse");
+    if (is_symbol(h, m->bodies.at[i].mass, s)) return pl_html_say(h, PL_BOTH("mass"));
     if (is_symbol(h, m->bodies.at[i].inertia, s))
-      return pl_html_say(h, "moment of inertia", "Trägheitsmoment");
+      return pl_html_say(h, PL_BOTH("moment of inertia"));
   }
   for (int i = 0; i < m->loads.n; i++) {
     const char* words = load_meaning(h, &m->loads.at[i], s);
@@ -149,10 +148,10 @@ static const char* meaning_of(pl_html* h, const pl_param* p, int i) {
   bool angle = p->unit_text
                && (strcmp(p->unit_text, "deg") == 0 || strcmp(p->unit_text, "°") == 0
                    || strcmp(p->unit_text, "rad") == 0);
-  if (angle) return pl_html_say(h, "angle", "Winkel");
+  if (angle) return pl_html_say(h, PL_BOTH("angle"));
   if (!h->model->uses_units || !s->dimension_known) return "";
   words = pl_dimension_words(h->arena, s->dimension, h->lang);
-  static const char* const article[] = {"an ", "a ", "eine ", "ein "};
+  static const char* const article[] = {"an ", "a ", PL_KEY("eine ")};
   for (int k = 0; k < 4; k++)
     if (strncmp(words, article[k], strlen(article[k])) == 0) return words + strlen(article[k]);
   return words;
@@ -207,8 +206,8 @@ static void put_parameters(pl_html* h) {
   pl_html_rawf(h,
                "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" "
                "class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
-               pl_html_say(h, "Symbol", "Symbol"), pl_html_say(h, "Meaning", "Bedeutung"),
-               pl_html_say(h, "Value", "Wert"), pl_html_say(h, "Used", "Benutzt"));
+               "Symbol", pl_html_say(h, PL_BOTH("Meaning")), pl_html_say(h, PL_BOTH("Value")),
+               pl_html_say(h, PL_BOTH("Used")));
   for (int i = 0; i < h->model->params.n; i++)
     if (!h->model->params.at[i].literal) put_parameter(h, value, i);
   pl_html_raw(h, "</tbody></table></div>\n");
@@ -216,7 +215,7 @@ static void put_parameters(pl_html* h) {
 
 void pl_html_model(pl_html* h) {
   pl_html_rawf(h, "<section id=\"model\"><h2>%s</h2>\n<div class=\"two\">\n",
-               pl_html_say(h, "Model", "Modell"));
+               pl_html_say(h, PL_BOTH("Model")));
   put_source(h);
   put_parameters(h);
   pl_html_raw(h, "</div></section>\n");

@@ -10,14 +10,12 @@ bool pl_html_has_motion(const pl_html* h) { return h->in->result && h->in->resul
 const char* pl_html_event(const pl_html* h, const pl_result_event* e) {
   const char* label = e->label ? e->label : "";
   switch (e->kind) {
-    case PL_EV_RELEASE:
-      return pl_format(h->arena, pl_html_say(h, "%s lets go", "%s löst sich"), label);
-    case PL_EV_IMPACT:
-      return pl_format(h->arena, pl_html_say(h, "impact on %s", "Stoß auf %s"), label);
+    case PL_EV_RELEASE: return pl_format(h->arena, pl_html_say(h, PL_BOTH("%s lets go")), label);
+    case PL_EV_IMPACT: return pl_format(h->arena, pl_html_say(h, PL_BOTH("impact on %s")), label);
     case PL_EV_CONTACT:
-      return pl_format(h->arena, pl_html_say(h, "contact with %s", "Kontakt mit %s"), label);
-    case PL_EV_SINGULAR: return pl_html_say(h, "singular position", "singuläre Lage");
-    default: return *label ? label : pl_html_say(h, "event", "Ereignis");
+      return pl_format(h->arena, pl_html_say(h, PL_BOTH("contact with %s")), label);
+    case PL_EV_SINGULAR: return pl_html_say(h, PL_BOTH("singular position"));
+    default: return *label ? label : pl_html_say(h, PL_BOTH("event"));
   }
 }
 
@@ -52,25 +50,25 @@ static void put_controls(pl_html* h, bool picture) {
   double t0 = r->rows.at[0][0], t1 = r->rows.at[r->rows.n - 1][0];
   pl_html_rawf(
       h, "<div class=\"ctl\"><button type=\"button\" id=\"play\" aria-label=\"%s\">▶</button>\n",
-      pl_html_say(h, "Play or pause", "Abspielen oder anhalten"));
+      pl_html_say(h, PL_BOTH("Play or pause")));
   pl_html_rawf(h,
                "<div class=\"scrub\"><input id=\"scrub\" type=\"range\" min=\"0\" max=\"1000\" "
                "step=\"any\" value=\"0\" aria-label=\"%s\">",
-               pl_html_say(h, "Time", "Zeit"));
+               pl_html_say(h, PL_BOTH("Time")));
   put_event_buttons(h, t0, t1);
   pl_html_raw(h, "</div>\n<output id=\"time\">t = 0</output>\n");
   if (picture && pl_html_scene_has(h, PL_SHAPE_FORCE))
-    put_switch(h, "forces", pl_html_say(h, "forces", "Kräfte"), true);
+    put_switch(h, "forces", pl_html_say(h, PL_BOTH("forces")), true);
   if (picture && pl_html_scene_has(h, PL_SHAPE_VELOCITY))
-    put_switch(h, "velocity", pl_html_say(h, "velocity", "Geschwindigkeit"), false);
+    put_switch(h, "velocity", pl_html_say(h, PL_BOTH("velocity")), false);
   if (picture && pl_html_scene_has(h, PL_SHAPE_TRAIL))
-    put_switch(h, "trail", pl_html_say(h, "trail", "Spur"), true);
+    put_switch(h, "trail", pl_html_say(h, PL_BOTH("trail")), true);
   pl_html_rawf(h,
                "<label>%s <select id=\"speed\"><option value=\"0.25\">0%s25×</option><option "
                "value=\"0.5\">0%s5×</option>"
                "<option value=\"1\" selected>1×</option><option "
                "value=\"2\">2×</option></select></label></div>\n",
-               pl_html_say(h, "speed", "Tempo"), pl_html_say(h, ".", ","),
+               pl_html_say(h, PL_BOTH("speed")), pl_html_say(h, ".", ","),
                pl_html_say(h, ".", ","));
 }
 
@@ -85,8 +83,7 @@ static void put_no_motion(pl_html* h) {
     pl_html_raw(h, "</figure>\n");
   }
   if (message) {
-    pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ",
-                 pl_html_say(h, "Not simulated:", "Nicht simuliert:"));
+    pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ", pl_html_say(h, PL_BOTH("Not simulated:")));
     pl_html_text(h, h->in->run_message);
     pl_html_raw(h, "</p>");
   }
@@ -94,12 +91,11 @@ static void put_no_motion(pl_html* h) {
 }
 
 static void put_hint(pl_html* h) {
-  pl_html_rawf(h, "<p class=\"hint\">%s</p>\n",
-               pl_html_say(h,
-                           "Hover to read values, drag to zoom in time, double-click to reset, ← → "
-                           "to step. The cursor moves the picture.",
-                           "Zeigen liest Werte ab, Ziehen vergrößert die Zeit, Doppelklick setzt "
-                           "zurück, ← → gehen schrittweise. Der Zeiger bewegt das Bild."));
+  pl_html_rawf(
+      h, "<p class=\"hint\">%s</p>\n",
+      pl_html_say(h,
+                  PL_BOTH("Hover to read values, drag to zoom in time, double-click to reset, ← → "
+                          "to step. The cursor moves the picture.")));
 }
 
 void pl_html_motion(pl_html* h) {
@@ -110,7 +106,7 @@ void pl_html_motion(pl_html* h) {
   bool picture = pl_html_has_picture(h);
   pl_html_rows rows = pl_html_thin(h);
   pl_html_rawf(h, "<section id=\"motion\"><h2>%s</h2>\n<div class=\"%s\">\n<figure>",
-               pl_html_say(h, "Motion", "Bewegung"), picture ? "stage" : "stage alone");
+               pl_html_say(h, PL_BOTH("Motion")), picture ? "stage" : "stage alone");
   if (picture) pl_html_picture(h);
   put_controls(h, picture);
   pl_html_raw(h, "</figure>\n<div class=\"plots\">\n");
@@ -118,15 +114,14 @@ void pl_html_motion(pl_html* h) {
   pl_html_raw(h, "</div></div>\n");
   put_hint(h);
   if (h->in->unplotted) {
-    pl_html_rawf(
-        h, "<p class=\"note\"><b>%s</b> ",
-        pl_html_say(h, "No numbers, and so no curve:", "Keine Zahlenwerte, daher keine Kurve:"));
+    pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ",
+                 pl_html_say(h, PL_BOTH("No numbers, and so no curve:")));
     pl_html_text(h, h->in->unplotted);
     pl_html_raw(h, "</p>\n");
   }
   if (h->in->run_message && *h->in->run_message) {
     pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ",
-                 pl_html_say(h, "The motion ends early:", "Die Bewegung endet vorzeitig:"));
+                 pl_html_say(h, PL_BOTH("The motion ends early:")));
     pl_html_text(h, h->in->run_message);
     pl_html_raw(h, "</p>\n");
   }

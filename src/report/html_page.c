@@ -31,7 +31,7 @@ static void put_policy(pl_html* h) {
 
 static const char* title_of(const pl_html* h) {
   const char* title = h->model && h->model->title ? h->model->title : "";
-  return *title ? title : pl_html_say(h, "A mechanical system", "Ein mechanisches System");
+  return *title ? title : pl_html_say(h, PL_BOTH("A mechanical system"));
 }
 
 static void put_head(pl_html* h) {
@@ -65,23 +65,19 @@ static void put_top(pl_html* h) {
       h,
       "<body>\n<header class=\"top\"><div class=\"wrap\"><span class=\"brand\">%spleuel</span>\n",
       brand);
-  pl_html_rawf(h, "<nav aria-label=\"%s\">", pl_html_say(h, "Sections", "Abschnitte"));
-  put_constraint(h, "result", pl_html_say(h, "Result", "Ergebnis"));
-  if (pl_html_has_motion(h)) put_constraint(h, "motion", pl_html_say(h, "Motion", "Bewegung"));
+  pl_html_rawf(h, "<nav aria-label=\"%s\">", pl_html_say(h, PL_BOTH("Sections")));
+  put_constraint(h, "result", pl_html_say(h, PL_BOTH("Result")));
+  if (pl_html_has_motion(h)) put_constraint(h, "motion", pl_html_say(h, PL_BOTH("Motion")));
   else if (pl_html_has_picture(h)) put_constraint(h, "motion", pl_html_say(h, "System", "System"));
-  put_constraint(h, "derivation", pl_html_say(h, "Derivation", "Herleitung"));
-  put_constraint(h, "checks", pl_html_say(h, "Checks", "Proben"));
-  put_constraint(h, "model", pl_html_say(h, "Model", "Modell"));
+  put_constraint(h, "derivation", pl_html_say(h, PL_BOTH("Derivation")));
+  put_constraint(h, "checks", pl_html_say(h, PL_BOTH("Checks")));
+  put_constraint(h, "model", pl_html_say(h, PL_BOTH("Model")));
   pl_html_raw(h, "</nav>\n<span class=\"tools\">");
   bool data = pl_html_has_motion(h) && h->in->data != PL_HTML_DATA_NONE;
-  if (data)
-    put_tool(h, "csv", "CSV",
-             pl_html_say(h, "Save the motion as CSV", "Bewegung als CSV speichern"));
-  put_tool(h, "tex", "LaTeX",
-           pl_html_say(h, "Save the equations as LaTeX", "Gleichungen als LaTeX speichern"));
-  put_tool(h, "print", pl_html_say(h, "Print", "Drucken"), pl_html_say(h, "Print", "Drucken"));
-  put_tool(h, "theme", "◐",
-           pl_html_say(h, "Switch between light and dark", "Zwischen hell und dunkel wechseln"));
+  if (data) put_tool(h, "csv", "CSV", pl_html_say(h, PL_BOTH("Save the motion as CSV")));
+  put_tool(h, "tex", "LaTeX", pl_html_say(h, PL_BOTH("Save the equations as LaTeX")));
+  put_tool(h, "print", pl_html_say(h, PL_BOTH("Print")), pl_html_say(h, PL_BOTH("Print")));
+  put_tool(h, "theme", "◐", pl_html_say(h, PL_BOTH("Switch between light and dark")));
   pl_html_raw(h, "</span></div></header>\n<main class=\"wrap\">\n");
 }
 

@@ -200,14 +200,15 @@ static const char* plot_title(pl_html* h, const pl_html_plot* p) {
 // What a listener hears of a plot: between which values each curve lies.
 static void put_description(pl_html* h, const pl_html_plot* p, const pl_html_rows* rows,
                             const char* x_name) {
-  pl_html_attribute(h, pl_format(h->arena, pl_html_say(h, "%s over %s: ", "%s über %s: "),
-                                 plot_title(h, p), x_name));
+  const char* words = x_name ? pl_html_say(h, PL_BOTH("%s over %s: "))
+                             : pl_html_say(h, PL_BOTH("%s over time: "));
+  pl_html_attribute(h, pl_format(h->arena, words, plot_title(h, p), x_name));
   for (int k = 0; k < p->n_curves; k++) {
     pl_html_range g = range_of(h, rows, &p->curves[k].column, 1, 0);
-    const char* words = pl_format(
-        h->arena, pl_html_say(h, "%s%s between %s and %s", "%s%s zwischen %s und %s"),
-        k ? "; " : "", p->curves[k].name, pl_html_number(h, g.lo, 4), pl_html_number(h, g.hi, 4));
-    pl_html_attribute(h, words);
+    const char* between = pl_format(h->arena, pl_html_say(h, PL_BOTH("%s%s between %s and %s")),
+                                    k ? "; " : "", p->curves[k].name, pl_html_number(h, g.lo, 4),
+                                    pl_html_number(h, g.hi, 4));
+    pl_html_attribute(h, between);
   }
 }
 
@@ -235,7 +236,7 @@ static void put_plot(pl_html* h, int i, const pl_html_rows* rows) {
   pl_html_rawf(h,
                "</span></div>\n<svg data-p=\"%d\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"",
                i, PL_HTML_PLOT_W, PL_HTML_PLOT_H);
-  put_description(h, p, rows, over_time ? pl_html_say(h, "time", "der Zeit") : p->x_name);
+  put_description(h, p, rows, p->x_name);
   pl_html_raw(h, "\">\n");
   put_axes(h, &a, x_label);
   if (over_time) put_marks(h, &a);

@@ -46,7 +46,7 @@ static void put_title(pl_tex_page* g, const pl_model* m) {
 
 // ----------------------------------------------------------------------------------------- the end
 static void put_notes(pl_tex_page* g, const pl_solution* s, const pl_diagnostics* notes) {
-  static const char* const note[2] = {"Note", "Hinweis"};
+  const char* const note[2] = {PL_BOTH("Note")};
   pl_language lang = g->how.lang;
   for (int i = 0; notes && i < notes->list.n; i++) {
     const pl_diagnostic* d = &notes->list.at[i];
@@ -76,9 +76,9 @@ static void put_motion(pl_tex_page* g, const char* motion) {
 }
 
 static void put_checks(pl_tex_page* g, const pl_solution* s) {
-  static const char* const label[2] = {"Checks", "Proben"};
-  static const char* const passed[2] = {"all passed", "alle bestanden"};
-  static const char* const failed[2] = {"failed", "fehlgeschlagen"};
+  const char* const label[2] = {PL_BOTH("Checks")};
+  const char* const passed[2] = {PL_BOTH("all passed")};
+  const char* const failed[2] = {PL_BOTH("failed")};
   if (s->checks.n == 0) return;
   bool all = true;
   pl_text_addf(g->out, "\n\\medskip\\emph{%s.} ", label[g->how.lang]);
@@ -93,7 +93,7 @@ static void put_checks(pl_tex_page* g, const pl_solution* s) {
 }
 
 static void put_used(pl_tex_page* g, const pl_solution* s) {
-  static const char* const label[2] = {"Used", "Benutzt"};
+  const char* const label[2] = {PL_BOTH("Used")};
   if (s->used.n == 0) return;
   pl_text_addf(g->out, "\n\\emph{%s.} ", label[g->how.lang]);
   for (int i = 0; i < s->used.n; i++) {

@@ -171,7 +171,7 @@ static int run_of(const pl_step* const* s, int n) {
 }
 
 static void put_steps(pl_tex_page* g, const pl_step* const* s, int n) {
-  static const char* const note[2] = {"\\emph{Note.} ", "\\emph{Hinweis.} "};
+  const char* const note[2] = {PL_BOTH("\\emph{Note.} ")};
   for (int i = 0; i < n;) {
     int run = 1;
     if (s[i]->kind == PL_STEP_EQUATION && s[i]->formula) {

@@ -228,7 +228,7 @@ static void pl_put_text(pl_page* g, const pl_step* s) {
 }
 
 static void pl_put_note(pl_page* g, const pl_step* s) {
-  static const char* const note[2] = {"note", "Hinweis"};
+  const char* const note[2] = {PL_BOTH("note")};
   const char* words = pl_page_fill(g, pl_page_words(g, s->words), s->n_inserts, s->inserts);
   // a code in front of the sentence belongs to the word "note": note N055: ...
   bool coded = words[0] == 'N' && strspn(words + 1, "0123456789") == 3;

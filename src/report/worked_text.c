@@ -33,7 +33,7 @@ bool pl_worked_told(const pl_solution* s, const char* code) {
 }
 
 static void pl_put_notes(pl_page* g, const pl_solution* s, const pl_diagnostics* notes) {
-  static const char* const note[2] = {"note", "Hinweis"};
+  const char* const note[2] = {PL_BOTH("note")};
   pl_language lang = g->how.lang;
   for (int i = 0; notes && i < notes->list.n; i++) {
     const pl_diagnostic* d = &notes->list.at[i];
@@ -99,22 +99,22 @@ static void pl_put_verdict(pl_page* g, int column, const char* verdict, bool pas
 }
 
 static void pl_put_failures(pl_page* g, const pl_solution* s) {
-  static const char* const words[2] = {"failed: %s%s%s", "fehlgeschlagen: %s%s%s"};
-  static const char* const on[2] = {", at ", ", bei "};
+  const char* const words = pl_in_language(g->how.lang, PL_KEY("failed: %s%s%s"));
+  const char* const on = pl_in_language(g->how.lang, PL_KEY(", at "));
   for (int i = 0; i < s->checks.n; i++) {
     const pl_check* c = &s->checks.at[i];
     if (c->passed) continue;
     const char* where = c->failed_on ? pl_page_plain(g, c->failed_on) : "";
-    const char* line = pl_format(g->arena, words[g->how.lang], pl_page_words(g, c->name),
-                                 *where ? on[g->how.lang] : "", where);
+    const char* line = pl_format(g->arena, words, pl_page_words(g, c->name), *where ? on : "",
+                                 where);
     pl_page_sentence(g, PL_COLUMN_TAIL, PL_COLUMN_TAIL + 2, PL_INK_RED, line);
   }
 }
 
 static void pl_put_checks(pl_page* g, const pl_solution* s) {
-  static const char* const label[2] = {"checks", "Proben"};
-  static const char* const passed[2] = {"all passed", "alle bestanden"};
-  static const char* const failed[2] = {"%d failed", "%d fehlgeschlagen"};
+  const char* const label[2] = {PL_BOTH("checks")};
+  const char* const passed[2] = {PL_BOTH("all passed")};
+  const char* const failed[2] = {PL_BOTH("%d failed")};
   if (s->checks.n == 0) return;
   const char** item = PL_ARRAY(g->arena, const char*, s->checks.n);
   for (int i = 0; i < s->checks.n; i++) item[i] = pl_check_text(g, &s->checks.at[i]);
@@ -128,7 +128,7 @@ static void pl_put_checks(pl_page* g, const pl_solution* s) {
 }
 
 static void pl_put_used(pl_page* g, const pl_solution* s) {
-  static const char* const label[2] = {"used", "benutzt"};
+  const char* const label[2] = {PL_BOTH("used")};
   if (s->used.n == 0) return;
   const char** item = PL_ARRAY(g->arena, const char*, s->used.n);
   for (int i = 0; i < s->used.n; i++) item[i] = pl_page_plain(g, s->used.at[i]);

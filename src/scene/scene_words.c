@@ -13,19 +13,17 @@ static int count(const pl_stage* s, pl_shape_kind kind) {
 
 typedef struct pl_words {
   pl_shape_kind kind;
-  const char *one[2], *many[2];
+  const char *one, *many;
 } pl_words;
 static const pl_words words[] = {
-    {PL_SHAPE_MASS, {"one mass", "eine Masse"}, {"%d masses", "%d Massen"}},
-    {PL_SHAPE_BODY, {"one body", "ein Körper"}, {"%d bodies", "%d Körper"}},
-    {PL_SHAPE_ROD, {"a rod", "eine Stange"}, {"%d rods", "%d Stangen"}},
-    {PL_SHAPE_ROPE, {"a rope", "ein Seil"}, {"%d ropes", "%d Seile"}},
-    {PL_SHAPE_SPRING, {"a spring", "eine Feder"}, {"%d springs", "%d Federn"}},
-    {PL_SHAPE_DAMPER, {"a damper", "ein Dämpfer"}, {"%d dampers", "%d Dämpfer"}},
-    {PL_SHAPE_CURVE,
-     {"a curve that is followed", "eine Bahnkurve"},
-     {"%d curves that are followed", "%d Bahnkurven"}},
-    {PL_SHAPE_GROUND, {"a surface", "eine Fläche"}, {"%d surfaces", "%d Flächen"}},
+    {PL_SHAPE_MASS, PL_KEY("one mass"), PL_KEY("%d masses")},
+    {PL_SHAPE_BODY, PL_KEY("one body"), PL_KEY("%d bodies")},
+    {PL_SHAPE_ROD, PL_KEY("a rod"), PL_KEY("%d rods")},
+    {PL_SHAPE_ROPE, PL_KEY("a rope"), PL_KEY("%d ropes")},
+    {PL_SHAPE_SPRING, PL_KEY("a spring"), PL_KEY("%d springs")},
+    {PL_SHAPE_DAMPER, PL_KEY("a damper"), PL_KEY("%d dampers")},
+    {PL_SHAPE_CURVE, PL_KEY("a curve that is followed"), PL_KEY("%d curves that are followed")},
+    {PL_SHAPE_GROUND, PL_KEY("a surface"), PL_KEY("%d surfaces")},
 };
 
 static const char* decimal(pl_arena* a, double x, int lang) {
@@ -38,10 +36,12 @@ static const char* decimal(pl_arena* a, double x, int lang) {
 static const char* happening(pl_arena* a, const pl_result_event* e, int lang) {
   const char* label = e->label ? e->label : "";
   switch (e->kind) {
-    case PL_EV_RELEASE: return pl_format(a, lang ? "%s löst sich" : "%s lets go", label);
-    case PL_EV_IMPACT: return pl_format(a, lang ? "Stoß auf %s" : "impact on %s", label);
-    case PL_EV_CONTACT: return pl_format(a, lang ? "Kontakt mit %s" : "contact with %s", label);
-    case PL_EV_SINGULAR: return lang ? "singuläre Lage" : "singular position";
+    case PL_EV_RELEASE: return pl_format(a, lang ? pl_german("%s lets go") : "%s lets go", label);
+    case PL_EV_IMPACT:
+      return pl_format(a, lang ? pl_german("impact on %s") : "impact on %s", label);
+    case PL_EV_CONTACT:
+      return pl_format(a, lang ? pl_german("contact with %s") : "contact with %s", label);
+    case PL_EV_SINGULAR: return lang ? pl_german("singular position") : "singular position";
     default: break;
   }
   return label;
@@ -55,24 +55,25 @@ void pl_stage_words(pl_stage* s, pl_scene* scene) {
     pl_text out = pl_text_make(s->arena);
     pl_text_addf(&out, "%s: ",
                  s->model->title ? s->model->title
-                 : lang          ? "Das System"
+                 : lang          ? pl_german("The system")
                                  : "The system");
     int said = 0;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
       int n = count(s, words[i].kind);
       if (n == 0) continue;
       pl_text_add(&out, said++ ? ", " : "");
-      if (n == 1) pl_text_add(&out, words[i].one[lang]);
-      else pl_text_addf(&out, words[i].many[lang], n);
+      if (n == 1) pl_text_add(&out, pl_in_language(lang, words[i].one));
+      else pl_text_addf(&out, pl_in_language(lang, words[i].many), n);
     }
-    if (!said) pl_text_add(&out, lang ? "nichts, was einen Ort hat" : "nothing that has a place");
+    if (!said)
+      pl_text_add(&out, lang ? pl_german("nothing that has a place") : "nothing that has a place");
     if (s->n_frames > 1) {
-      pl_text_addf(&out, lang ? "; Bewegung von t = %s bis %s s" : "; motion from t = %s to %s s",
-                   decimal(s->arena, s->t[0], lang),
-                   decimal(s->arena, s->t[s->n_frames - 1], lang));
+      pl_text_addf(
+          &out, lang ? pl_german("; motion from t = %s to %s s") : "; motion from t = %s to %s s",
+          decimal(s->arena, s->t[0], lang), decimal(s->arena, s->t[s->n_frames - 1], lang));
     }
     for (int i = 0; r && i < r->events.n && i < MOST_HAPPENINGS; i++) {
-      pl_text_addf(&out, lang ? "; %s bei t = %s s" : "; %s at t = %s s",
+      pl_text_addf(&out, lang ? pl_german("; %s at t = %s s") : "; %s at t = %s s",
                    happening(s->arena, &r->events.at[i], lang),
                    decimal(s->arena, r->events.at[i].t, lang));
     }

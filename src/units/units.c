@@ -694,7 +694,7 @@ static void list_same_dimension(pl_text* t, pl_dimension d, const char* text, pl
   int n = 0;
   for (int i = 0; i < N_UNIT_ROWS && n < 12; i++) {
     if (!row_has_dimension(&unit_rows[i], d) || strcmp(unit_rows[i].name, text) == 0) continue;
-    if (n == 0) pl_text_add(t, lang == PL_GERMAN ? "  passt zu   " : "  fits with  ");
+    if (n == 0) pl_text_add(t, lang == PL_GERMAN ? pl_german("  fits with  ") : "  fits with  ");
     pl_text_addf(t, "%s%s", n ? ", " : "", unit_rows[i].name);
     n++;
   }
@@ -708,27 +708,27 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
   size_t at, n;
   const char* near = NULL;
   if (!pl_unit_parse(p, text, strlen(text), &unit, &at, &n, &near)) {
-    pl_text_addf(&t, german ? "%s  ist keine Einheit" : "%s  is not a unit", text);
+    pl_text_addf(&t, german ? pl_german("%s  is not a unit") : "%s  is not a unit", text);
     if (n && n < strlen(text))
-      pl_text_addf(&t, german ? ": \"%.*s\" ist unbekannt" : ": \"%.*s\" is not known", (int)n,
-                   text + at);
+      pl_text_addf(&t, german ? pl_german(": \"%.*s\" is not known") : ": \"%.*s\" is not known",
+                   (int)n, text + at);
     pl_text_add(&t, "\n");
     if (near)
-      pl_text_addf(&t, german ? "  gemeint?   %.*s%s%s\n" : "  meant?     %.*s%s%s\n", (int)at,
-                   text, near, text + at + n);
+      pl_text_addf(&t, german ? pl_german("  meant?     %.*s%s%s\n") : "  meant?     %.*s%s%s\n",
+                   (int)at, text, near, text + at + n);
     return pl_text_string(&t);
   }
   pl_text_add(&t, text);
   const char* words = symbol_words(a, text);
   if (words) pl_text_addf(&t, "  (%s)", words);
   pl_text_add(&t, "\n");
-  pl_text_addf(&t, german ? "  ist        %s\n" : "  is         %s\n",
+  pl_text_addf(&t, german ? pl_german("  is         %s\n") : "  is         %s\n",
                pl_dimension_words(a, unit.dimension, lang));
   pl_text_addf(&t, german ? "  in SI      1 %s = %s %s\n" : "  in SI      1 %s = %s %s\n", text,
                pl_expr_text(a, p, unit.scale), pl_dimension_unit(a, unit.dimension, false));
   if (!pl_is_number(p, unit.scale)) {
     double* none = PL_ARRAY(a, double, pl_symbol_count(p) + 1);
-    pl_text_addf(&t, german ? "  also       %.17g\n" : "  that is    %.17g\n",
+    pl_text_addf(&t, german ? pl_german("  that is    %.17g\n") : "  that is    %.17g\n",
                  pl_eval(p, unit.scale, none));
   }
   list_same_dimension(&t, unit.dimension, text, lang);

@@ -393,30 +393,25 @@ static const char* number(const pl_witness* w, double x, pl_language lang) {
 
 static const char* start_words(const pl_witness* w, const pl_contradiction_found* f,
                                pl_language lang) {
-  static const char* const words[][2] = {
-      {"from the start", "vom Anfang aus"},
-      {"from the start that is named", "vom genannten Anfang aus"},
-      {"from a random start", "von einem zufälligen Anfang aus"}};
-  return pl_format(w->arena, "%s, t = %s s", words[f->start][lang], number(w, f->t, lang));
+  static const char* const words[] = {PL_KEY("from the start"),
+                                      PL_KEY("from the start that is named"),
+                                      PL_KEY("from a random start")};
+  return pl_format(w->arena, "%s, t = %s s", pl_in_language(lang, words[f->start]),
+                   number(w, f->t, lang));
 }
 
 static const char* disagreement(const pl_witness* w, const pl_statement* s,
                                 const pl_contradiction_found* f, pl_language lang) {
-  static const char* const words[][2] = {
-      [PL_EQUALS] =
-          {"Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s.",
-           "Formel und Bewegung widersprechen sich bei {1} (%s): die Formel gibt %s, die Bewegung "
-           "%s."},
-      [PL_VANISHES] = {"The motion does not satisfy {1} (%s): %s is left where %s should be.",
-                       "Die Bewegung erfüllt {1} nicht (%s): es bleibt %s, wo %s stehen sollte."},
-      [PL_STAYS] = {"{1} is not constant along the motion (%s): it goes from %s to %s.",
-                    "{1} ist längs der Bewegung nicht erhalten (%s): der Wert geht von %s zu %s."},
-      [PL_FOLLOWS] =
-          {"Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s.",
-           "Formel und Bewegung widersprechen sich bei {1} (%s): die Formel gibt %s, die Bewegung "
-           "%s."},
+  static const char* const words[] = {
+      [PL_EQUALS] = PL_KEY(
+          "Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s."),
+      [PL_VANISHES] =
+          PL_KEY("The motion does not satisfy {1} (%s): %s is left where %s should be."),
+      [PL_STAYS] = PL_KEY("{1} is not constant along the motion (%s): it goes from %s to %s."),
+      [PL_FOLLOWS] = PL_KEY(
+          "Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s."),
   };
-  return pl_format(w->arena, words[s->kind][lang], start_words(w, f, lang),
+  return pl_format(w->arena, pl_in_language(lang, words[s->kind]), start_words(w, f, lang),
                    number(w, f->shown, lang), number(w, f->motion, lang));
 }
 
@@ -446,8 +441,7 @@ static void withdraw_section(pl_witness* w, pl_section* section, pl_step why) {
   for (int i = 0; i < section->values.n; i++) withdraw_value(&section->values.at[i]);
   pl_push(w->arena, section->steps, why);
   pl_push(w->arena, section->steps,
-          sentence(w, "One of them is wrong; nothing is claimed here.",
-                   "Eines davon ist falsch; hier wird nichts behauptet.", NULL));
+          sentence(w, PL_BOTH("One of them is wrong; nothing is claimed here."), NULL));
 }
 
 static void withdraw(pl_witness* w, const pl_statement* s, const pl_contradiction_found* f) {
@@ -468,9 +462,8 @@ static int count_started(const pl_witness* w) {
 }
 
 static void report(pl_witness* w, const pl_verdicts* v) {
-  pl_check check = {.name = {"formulas against the motion", "Formeln gegen die Bewegung"},
-                    .passed = true,
-                    .starts = count_started(w)};
+  pl_check check = {
+      .name = {PL_BOTH("formulas against the motion")}, .passed = true, .starts = count_started(w)};
   for (int i = 0; i < w->statements.n; i++) check.formulas += v->of[i] != PL_NOT_COMPARED;
   check.formulas += w->n_searched;
   for (int i = 0; i < w->statements.n; i++) {
@@ -493,7 +486,7 @@ static void report_without_motion(pl_witness* w, const char* why_en, const char*
   pl_check check = {
       .passed = true,
       .name = {pl_format(w->arena, "formulas not held against the motion: %s", why_en),
-               pl_format(w->arena, "Formeln nicht gegen die Bewegung gehalten: %s", why_de)}};
+               pl_format(w->arena, pl_german("formulas not held against the motion: %s"), why_de)}};
   pl_push(w->arena, w->solution->checks, check);
 }
 
@@ -542,13 +535,12 @@ void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages,
   pl_statements_collect(&w);
   if (w.statements.n == 0 && !is_searched(&w)) return;
   if (too_large(&w, m)) {
-    report_without_motion(&w, "the system is large", "das System ist groß");
+    report_without_motion(&w, PL_BOTH("the system is large"));
     return;
   }
   pl_model* numbered = pl_trace_model(job, m, PL_SEED_OF_NUMBERS);
   if (!numbered) {
-    report_without_motion(&w, "no numbers fit the assumptions",
-                          "keine Zahlen passen zu den Annahmen");
+    report_without_motion(&w, PL_BOTH("no numbers fit the assumptions"));
     return;
   }
   w.model = watched_model(&w, numbered);

@@ -121,9 +121,8 @@ static bool is_meant(const pl_witness* w, const pl_section* s, const pl_trace* t
 
 static void refuse_limit(pl_witness* w, int section, const pl_value* v, const pl_distance* d) {
   static const char* const words[] = {
-      "Formula and motion disagree about {1} near the limit: the formula gives %s, the motion %s.",
-      "Formel und Bewegung widersprechen sich nahe dem Grenzfall bei {1}: die Formel gibt %s, die "
-      "Bewegung %s."};
+      PL_KEY("Formula and motion disagree about {1} near the limit: the formula gives %s, the "
+             "motion %s.")};
   const char* said[2];
   for (int lang = 0; lang < 2; lang++) {
     said[lang] = pl_format(w->arena, words[lang], number(w, d->shown, (pl_language)lang),
@@ -215,11 +214,13 @@ static void try_frequency(pl_witness* w, int section, pl_rest_field* f, const pl
   if (isnan(off)) return;
   w->n_searched++;
   if (off < frequency) return;
-  refuse(w, section, v->name, pl_form_name(w->arena, v->name, pl_poison()),
-         pl_format(w->arena, "{1} is %s by the formula: the motion beside the position is another.",
-                   number(w, square, PL_ENGLISH)),
-         pl_format(w->arena, "{1} ist %s nach der Formel: die Bewegung neben der Lage ist anders.",
-                   number(w, square, PL_GERMAN)));
+  refuse(
+      w, section, v->name, pl_form_name(w->arena, v->name, pl_poison()),
+      pl_format(w->arena, "{1} is %s by the formula: the motion beside the position is another.",
+                number(w, square, PL_ENGLISH)),
+      pl_format(w->arena,
+                pl_german("{1} is %s by the formula: the motion beside the position is another."),
+                number(w, square, PL_GERMAN)));
 }
 
 // 1 stable, -1 unstable, 0 not decided, with the quantity a little beside its threshold.
@@ -243,10 +244,8 @@ static void try_threshold(pl_witness* w, int section, const pl_value* v) {
   w->n_searched++;
   if (below != above) return;
   refuse(w, section, v->name, pl_form_name(w->arena, v->name, pl_poison()),
-         below > 0 ? "The position is stable on both sides of the value of {1}."
-                   : "The position is unstable on both sides of the value of {1}.",
-         below > 0 ? "Die Lage ist auf beiden Seiten des Werts von {1} stabil."
-                   : "Die Lage ist auf beiden Seiten des Werts von {1} instabil.");
+         PL_BOTH(below > 0 ? "The position is stable on both sides of the value of {1}."
+                           : "The position is unstable on both sides of the value of {1}."));
 }
 
 // ----------------------------------------------------------------------------------------- service

@@ -61,11 +61,11 @@ static void search_freedoms(pl_witness* w, int section, pl_rest_field* f) {
   if (w->model->frictions.n > 0) return;  // surfaces that stick are counted too
   w->n_searched++;
   if (count_is(w, f, &w->solution->dof, w->solution->hidden.n, &found)) return;
-  refuse(w, section, "dof", pl_form_leaf(w->arena, pl_int(w->pool, found)),
-         "The rank of the constraints at the start, and beside it, leaves {1} degrees of freedom, "
-         "not what was counted.",
-         "Der Rang der Zwangsbedingungen beim Start und daneben lässt {1} Freiheitsgrade, nicht so "
-         "viele wie gezählt.");
+  refuse(
+      w, section, "dof", pl_form_leaf(w->arena, pl_int(w->pool, found)),
+      PL_BOTH(
+          "The rank of the constraints at the start, and beside it, leaves {1} degrees of freedom, "
+          "not what was counted."));
 }
 
 // ----------------------------------------------------------------------- positions that are listed
@@ -194,15 +194,17 @@ static void try_listed(pl_witness* w, int section, pl_rest_field* f, const pl_tr
   bool found_rest = pl_search_rest_at(f, t, l->q, l->known, q, &left);
   if (!found_rest && isnan(left)) return;  // no way to put it there
   if (!found_rest) {
-    refuse(w, section, l->value->name, pl_form_name(w->arena, l->value->name, pl_poison()),
-           pl_format(w->arena,
-                     "{1} is no position of rest of the equations as they stand: %s of the forces "
-                     "is left there.",
-                     number(w, left, PL_ENGLISH)),
-           pl_format(w->arena,
-                     "{1} ist keine Ruhelage der Gleichungen, wie sie dastehen: %s der Kräfte "
-                     "bleibt dort übrig.",
-                     number(w, left, PL_GERMAN)));
+    refuse(
+        w, section, l->value->name, pl_form_name(w->arena, l->value->name, pl_poison()),
+        pl_format(w->arena,
+                  "{1} is no position of rest of the equations as they stand: %s of the forces "
+                  "is left there.",
+                  number(w, left, PL_ENGLISH)),
+        pl_format(
+            w->arena,
+            pl_german("{1} is no position of rest of the equations as they stand: %s of the forces "
+                      "is left there."),
+            number(w, left, PL_GERMAN)));
     return;
   }
   const char* said = l->value->stability;
@@ -212,10 +214,8 @@ static void try_listed(pl_witness* w, int section, pl_rest_field* f, const pl_tr
                || (found < 0 && strcmp(said, "stable") == 0);
   if (!wrong) return;
   refuse(w, section, l->value->name, pl_form_name(w->arena, l->value->name, pl_poison()),
-         found > 0 ? "{1} is stable: so the motion beside it says, by its eigenvalues."
-                   : "{1} is unstable: so the motion beside it says, by its eigenvalues.",
-         found > 0 ? "{1} ist stabil: das sagt die Bewegung daneben, nach ihren Eigenwerten."
-                   : "{1} ist instabil: das sagt die Bewegung daneben, nach ihren Eigenwerten.");
+         PL_BOTH(found > 0 ? "{1} is stable: so the motion beside it says, by its eigenvalues."
+                           : "{1} is unstable: so the motion beside it says, by its eigenvalues."));
 }
 
 // ------------------------------------------------------------------------------ nothing is missing
@@ -240,11 +240,10 @@ static void try_complete(pl_witness* w, int section, const pl_ground* on, const 
         pl_text_addf(&where, "%s%s = %s", where.n ? ", " : "",
                      t->recording->setup.coordinates[i].name, number(w, q[at], PL_ENGLISH));
     }
-    refuse(w, section, "equilibria", pl_form_name(w->arena, pl_text_string(&where), pl_poison()),
-           "The list of positions of rest is not complete: the equations as they stand have "
-           "another one at {1}.",
-           "Die Liste der Ruhelagen ist nicht vollständig: die Gleichungen, wie sie dastehen, "
-           "haben noch eine bei {1}.");
+    refuse(
+        w, section, "equilibria", pl_form_name(w->arena, pl_text_string(&where), pl_poison()),
+        PL_BOTH("The list of positions of rest is not complete: the equations as they stand have "
+                "another one at {1}."));
     return;
   }
 }

@@ -40,8 +40,8 @@ static void refuse(pl_witness* w, int section, const pl_value* v, pl_expr asked,
       "The motion meets the condition first at t = %s s; {1} is %s there, and %s by the formula.",
       number(w, t, PL_ENGLISH), number(w, motion, PL_ENGLISH), number(w, shown, PL_ENGLISH));
   r.words[PL_GERMAN] = pl_format(w->arena,
-                                 "Die Bewegung erfüllt die Bedingung zuerst bei t = %s s; {1} ist "
-                                 "dort %s, nach der Formel %s.",
+                                 pl_german("The motion meets the condition first at t = %s s; {1} "
+                                           "is %s there, and %s by the formula."),
                                  number(w, t, PL_GERMAN), number(w, motion, PL_GERMAN),
                                  number(w, shown, PL_GERMAN));
   pl_push(w->arena, w->refusals, r);

@@ -43,18 +43,14 @@ static bool contains_time(pl_analysis* d) {
 
 // Why T + V is not conserved.
 static pl_words loss(pl_analysis* d) {
-  if (pl_dissipates(d))
-    return (pl_words){"a force without potential acts", "es wirkt eine Kraft ohne Potential"};
+  if (pl_dissipates(d)) return (pl_words){PL_BOTH("a force without potential acts")};
   if (pl_scleronomic(d)) {
-    return (pl_words){
-        "a constraint that is not homogeneous in the velocities does work",
-        "eine in den Geschwindigkeiten nicht homogene Zwangsbedingung leistet Arbeit"};
+    return (pl_words){PL_BOTH("a constraint that is not homogeneous in the velocities does work")};
   }
   if (contains_time(d)) {
-    return (pl_words){"a constraint contains t, so its force does work",
-                      "eine Zwangsbedingung enthält t, ihre Zwangskraft leistet also Arbeit"};
+    return (pl_words){PL_BOTH("a constraint contains t, so its force does work")};
   }
-  return (pl_words){"the Lagrange function contains t", "die Lagrange-Funktion enthält t"};
+  return (pl_words){PL_BOTH("the Lagrange function contains t")};
 }
 
 static void energy_is_conserved(pl_analysis* d, pl_expr integral) {
@@ -64,28 +60,27 @@ static void energy_is_conserved(pl_analysis* d, pl_expr integral) {
   const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V),
                                        d->reduced ? d->Vg : pl_on_contact(d, d->V));
   if (d->dissipative) {
-    pl_say(d,
-           "conserved: the forces without potential do no work, and neither the Lagrange function "
-           "nor a constraint contains t.",
-           "erhalten: die Kräfte ohne Potential leisten keine Arbeit, und weder die "
-           "Lagrange-Funktion noch eine Zwangsbedingung enthält t.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH(
+            "conserved: the forces without potential do no work, and neither the Lagrange function "
+            "nor a constraint contains t."),
+        0);
   } else if (pl_is_zero_node(d->pool, d->V)) {
     pl_say(d,
-           "conserved: the Lagrange function does not contain t, and neither does any constraint.",
-           "erhalten: weder die Lagrange-Funktion noch eine Zwangsbedingung enthält t.", 0);
+           PL_BOTH("conserved: the Lagrange function does not contain t, and neither does any "
+                   "constraint."),
+           0);
   } else {
-    pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
-           "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1,
-           pl_feq(d, pl_fl(d, "V"), V));
+    pl_say(d,
+           PL_BOTH("conserved: all forces have the potential {1}, and no constraint contains t."),
+           1, pl_feq(d, pl_fl(d, "V"), V));
   }
-  const char *en = "all forces have a potential, and no constraint contains t",
-             *de = "alle Kräfte haben ein Potential, und keine Zwangsbedingung enthält t";
-  if (d->dissipative) {
-    en = "the forces without potential do no work, and nothing contains t";
-    de = "die Kräfte ohne Potential leisten keine Arbeit, und nichts enthält t";
-  }
-  add_reason(pl_answer(d, "E", integral, form), en, de, 1);
+  add_reason(
+      pl_answer(d, "E", integral, form),
+      PL_BOTH(d->dissipative ? "the forces without potential do no work, and nothing contains t"
+                             : "all forces have a potential, and no constraint contains t"),
+      1);
   claim_constant(d, form);
 }
 
@@ -96,21 +91,17 @@ static void jacobi(pl_analysis* d, pl_expr integral) {
   if (pure) pl_why_energy(d, integral);
   pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, pure ? "H" : "J"), form)), 1,
                d->page->number_lagrangian);
-  pl_say(d,
-         pure ? "Jacobi's integral is conserved: in these coordinates the Lagrange function does "
-                "not contain t."
-              : "Jacobi's integral is conserved: the Lagrange function contains t only in a total "
-                "time derivative.",
-         pure ? "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die "
-                "Lagrange-Funktion t nicht."
-              : "Das Jacobi-Integral ist erhalten: die Lagrange-Funktion enthält t nur in einer "
-                "totalen Zeitableitung.",
-         0);
+  pl_say(
+      d,
+      PL_BOTH(
+          pure ? "Jacobi's integral is conserved: in these coordinates the Lagrange function does "
+                 "not contain t."
+               : "Jacobi's integral is conserved: the Lagrange function contains t only in a total "
+                 "time derivative."),
+      0);
   add_reason(pl_answer(d, pure ? "H" : "J", integral, form),
-             pure ? "the Lagrange function does not contain t"
-                  : "the Lagrange function contains t only in a total time derivative",
-             pure ? "die Lagrange-Funktion enthält t nicht"
-                  : "die Lagrange-Funktion enthält t nur in einer totalen Zeitableitung",
+             PL_BOTH(pure ? "the Lagrange function does not contain t"
+                          : "the Lagrange function contains t only in a total time derivative"),
              1);
   claim_constant(d, form);
 }
@@ -123,7 +114,7 @@ static void energy(pl_analysis* d) {
   }
   pl_words why = loss(d);
   pl_say(d, pl_format(d->arena, "The energy is not conserved: %s.", why.en),
-         pl_format(d->arena, "Die Energie ist nicht erhalten: %s.", why.de), 0);
+         pl_format(d->arena, pl_german("The energy is not conserved: %s."), why.de), 0);
   add_reason(pl_answer(d, "E", pl_poison(), NULL), why.en, why.de, 0);
   if (!pl_is_poison(integral)) jacobi(d, integral);
 }
@@ -142,13 +133,11 @@ static void cyclic(pl_analysis* d, int i) {
   pl_step_refs(step, 1, d->page->number_lagrangian);
   pl_say(
       d,
-      conserved ? "conserved: {1} is cyclic, it does not occur in the Lagrange function."
-                : "{1} is cyclic, but a force without potential acts along it: not conserved.",
-      conserved
-          ? "erhalten: {1} ist zyklisch, kommt also in der Lagrange-Funktion nicht vor."
-          : "{1} ist zyklisch, aber längs ihrer wirkt eine Kraft ohne Potential: nicht erhalten.",
+      PL_BOTH(conserved
+                  ? "conserved: {1} is cyclic, it does not occur in the Lagrange function."
+                  : "{1} is cyclic, but a force without potential acts along it: not conserved."),
       1, pl_fs(d, c->q));
-  add_reason(pl_answer(d, name, p, form), "cyclic coordinate", "zyklische Koordinate", conserved);
+  add_reason(pl_answer(d, name, p, form), PL_BOTH("cyclic coordinate"), conserved);
   if (conserved)
     pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)),
                   pl_int(d->pool, 0));
@@ -185,7 +174,7 @@ static void in_proposed(pl_analysis* d) {
 }
 
 void pl_answer_conserved(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
+  pl_section_open(d, ask, PL_BOTH("Conserved"));
   energy(d);
   for (int k = 0; d->reduced && k < d->gen.n && !pl_nonholonomic(d); k++) cyclic(d, d->gen.at[k]);
   pl_answer_momenta(d);

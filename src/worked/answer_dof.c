@@ -58,32 +58,32 @@ static void row_of_coordinates(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     if (d->q.at[i].carries) names[n++] = pl_fs(d, d->q.at[i].q);
   }
-  pl_row(d, "coordinates", "Koordinaten", pl_flist(d, names, n), pl_format(d->arena, "%d", n));
+  pl_row(d, PL_BOTH("coordinates"), pl_flist(d, names, n), pl_format(d->arena, "%d", n));
 }
 
 static void rows_of_constraints(pl_analysis* d) {
-  const char *en = "constraints", *de = "Zwangsbedingungen";
+  const char* heading = PL_KEY("constraints");
   for (int k = 0; k < count_written(d); k++) {
     const pl_bond* l = &d->g.at[k];
-    pl_step* row = pl_row(d, en, de, link_form(d, l), l->implied ? "0" : "-1");
+    pl_step* row = pl_row(d, PL_BOTH(heading), link_form(d, l), l->implied ? "0" : "-1");
     if (l->implied) {
-      pl_step_after(row, "says nothing new", "sagt nichts Neues");
+      pl_step_after(row, PL_BOTH("says nothing new"));
     } else if (l->fixes >= 0 && !l->contact) {
-      pl_step_after(row, "dropped", "entfällt");
+      pl_step_after(row, PL_BOTH("dropped"));
     } else if (l->contact) {
-      pl_step_after(row, "one-sided", "einseitig");
+      pl_step_after(row, PL_BOTH("one-sided"));
     }
     row_of_lets(d, l->g);
-    en = de = "";
+    heading = "";
   }
   for (int k = 0; k < d->open.n; k++) {
     const pl_open* o = &d->open.at[k];
     if (o->off) continue;
-    pl_step* row = pl_row(d, en, de, constraint_form(d, o->source), "0");
-    if (o->contact && !o->released) pl_step_after(row, "one-sided, open", "einseitig, offen");
-    else pl_step_after(row, "does not hold", "gilt nicht");
+    pl_step* row = pl_row(d, PL_BOTH(heading), constraint_form(d, o->source), "0");
+    if (o->contact && !o->released) pl_step_after(row, PL_BOTH("one-sided, open"));
+    else pl_step_after(row, PL_BOTH("does not hold"));
     row_of_lets(d, o->source->g);
-    en = de = "";
+    heading = "";
   }
 }
 
@@ -103,21 +103,21 @@ static bool is_implied(const pl_analysis* d, const pl_bond* l) { return l->impli
 
 static void say_kinds(pl_analysis* d) {
   if (count_written(d) == 0) return;
-  const char* time[2] = {
-      any(d, is_rheonomic) ? "time-dependent (rheonomic)" : "independent of time (scleronomic)",
-      any(d, is_rheonomic) ? "zeitabhängig (rheonom)" : "zeitunabhängig (skleronom)"};
+  const char* time[2] = {PL_BOTH(any(d, is_rheonomic) ? "time-dependent (rheonomic)"
+                                                      : "independent of time (scleronomic)")};
   if (count_written(d) == 1) {
     bool integrable = !any(d, is_nonholonomic);
     pl_say(d, pl_format(d->arena, "%s, %s", integrable ? "holonomic" : "nonholonomic", time[0]),
-           pl_format(d->arena, "%s, %s", integrable ? "holonom" : "nichtholonom", time[1]), 0);
+           pl_format(d->arena, "%s, %s",
+                     integrable ? pl_german("holonomic") : pl_german("nonholonomic"), time[1]),
+           0);
     return;
   }
   bool depend = any(d, is_implied);
   const char* independent[2] = {
-      depend ? "not independent of each other" : "independent of each other",
-      depend ? "nicht unabhängig voneinander" : "unabhängig voneinander"};
-  const char* holonomic[2] = {any(d, is_nonholonomic) ? "not all holonomic" : "all holonomic",
-                              any(d, is_nonholonomic) ? "nicht alle holonom" : "alle holonom"};
+      PL_BOTH(depend ? "not independent of each other" : "independent of each other")};
+  const char* holonomic[2] = {
+      PL_BOTH(any(d, is_nonholonomic) ? "not all holonomic" : "all holonomic")};
   pl_say(d, pl_format(d->arena, "%s, %s, %s", holonomic[0], time[0], independent[0]),
          pl_format(d->arena, "%s, %s, %s", holonomic[1], time[1], independent[1]), 0);
 }
@@ -127,22 +127,18 @@ static void say_hidden(pl_analysis* d) {
     const pl_variable* c = &d->q.at[d->hidden.at[k]];
     if (c->by_combination) {
       pl_say(d,
-             "The mass matrix is singular: in a combination of the equations all accelerations "
-             "cancel, and what is left is a hidden constraint, {1}. "
-             "The start value of {2} is not free.",
-             "Die Massenmatrix ist singulär: in einer Kombination der Gleichungen fallen alle "
-             "Beschleunigungen heraus, und was bleibt, ist eine verborgene "
-             "Zwangsbedingung, {1}. Der Startwert von {2} ist nicht frei.",
+             PL_BOTH(
+                 "The mass matrix is singular: in a combination of the equations all accelerations "
+                 "cancel, and what is left is a hidden constraint, {1}. "
+                 "The start value of {2} is not free."),
              2, pl_feq(d, pl_fs(d, c->q), pl_f(d, c->map, PL_S_SOLUTION)), pl_fs(d, c->q));
       continue;
     }
-    pl_say(d,
-           "{1} carries no inertia: its own equation contains no acceleration and is a hidden "
-           "constraint, {2}. Its start value is not free.",
-           "{1} trägt keine Trägheit: die eigene Gleichung enthält keine Beschleunigung und ist "
-           "eine verborgene Zwangsbedingung, {2}. Ihr "
-           "Startwert ist nicht frei.",
-           2, pl_fs(d, c->q), pl_feq(d, pl_fs(d, c->q), pl_f(d, c->map, PL_S_SOLUTION)));
+    pl_say(
+        d,
+        PL_BOTH("{1} carries no inertia: its own equation contains no acceleration and is a hidden "
+                "constraint, {2}. Its start value is not free."),
+        2, pl_fs(d, c->q), pl_feq(d, pl_fs(d, c->q), pl_f(d, c->map, PL_S_SOLUTION)));
   }
 }
 
@@ -150,23 +146,22 @@ static void say_hidden(pl_analysis* d) {
 static void rows_of_freedom(pl_analysis* d) {
   const pl_dof* f = &d->dof;
   bool closed = f->free > f->dof;
-  pl_step* row = pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL,
-                        pl_format(d->arena, "%d", f->dof));
-  if (f->open > 0) pl_step_after(row, "at the start", "beim Start");
-  else if (closed) pl_step_after(row, "in contact", "im Kontakt");
+  pl_step* row = pl_row(d, PL_BOTH("degrees of freedom"), NULL, pl_format(d->arena, "%d", f->dof));
+  if (f->open > 0) pl_step_after(row, PL_BOTH("at the start"));
+  else if (closed) pl_step_after(row, PL_BOTH("in contact"));
   if (closed) {
     row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->free));
-    if (f->open > 0) pl_step_after(row, "with all contacts open", "mit allen Kontakten offen");
-    else pl_step_after(row, "after lift-off", "nach dem Abheben");
+    if (f->open > 0) pl_step_after(row, PL_BOTH("with all contacts open"));
+    else pl_step_after(row, PL_BOTH("after lift-off"));
   }
   if (f->velocity_dof == f->dof) return;
-  pl_step_after(row, "of position", "der Lage");
+  pl_step_after(row, PL_BOTH("of position"));
   row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->velocity_dof));
-  pl_step_after(row, "of velocity", "der Geschwindigkeit");
+  pl_step_after(row, PL_BOTH("of velocity"));
 }
 
 void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
+  pl_section_open(d, ask, PL_BOTH("Degrees of freedom"));
   row_of_coordinates(d);
   rows_of_constraints(d);
   say_kinds(d);
@@ -174,13 +169,11 @@ void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
   say_hidden(d);
   pl_say_rank_at_start(d);
   if (d->mass_is_singular) {
-    pl_say(d,
-           "The mass matrix is singular and the equations do not determine all accelerations: "
-           "fewer start values than this number promises are free.",
-           "Die Massenmatrix ist singulär, und die Gleichungen bestimmen nicht alle "
-           "Beschleunigungen: weniger Startwerte sind frei, als diese Zahl erwarten "
-           "lässt.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH("The mass matrix is singular and the equations do not determine all accelerations: "
+                "fewer start values than this number promises are free."),
+        0);
   }
   pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
 }
@@ -192,8 +185,8 @@ static void say_contact(pl_analysis* d, const pl_constraint* c) {
   const pl_form* lambda = pl_frel(d, pl_fs(d, c->lambda), push ? "≥" : "≤", zero_form(d));
   const pl_form* open = pl_feq(d, pl_fs(d, c->lambda), zero_form(d));
   pl_show(d, constraint_form(d, c));
-  pl_say(d, "One-sided: in contact {1} and {2}; after lift-off {3}.",
-         "Einseitig: im Kontakt {1} und {2}; nach dem Abheben {3}.", 3, closed, lambda, open);
+  pl_say(d, PL_BOTH("One-sided: in contact {1} and {2}; after lift-off {3}."), 3, closed, lambda,
+         open);
 }
 
 static bool dropped(const pl_bond* l) { return l->fixes >= 0 && !l->contact; }
@@ -252,68 +245,53 @@ static void say_dropped(pl_analysis* d) {
   if (n > 0) {
     pl_say(
         d,
-        n == 1 ? "{1} has the form coordinate = constant. Differentiated twice it gives {2}; no "
-                 "force acts along this "
-                 "coordinate, so {3}, and the other coordinates do not depend on it. It is dropped."
-               : "{1} have the form coordinate = constant. Differentiated twice they give {2}; no "
-                 "force acts along these "
-                 "coordinates, so {3}, and the other coordinates do not depend on them. They are "
-                 "dropped.",
-        n == 1
-            ? "{1} hat die Form Koordinate = Konstante. Zweimal abgeleitet folgt {2}; längs dieser "
-              "Koordinate wirkt keine "
-              "Kraft, also {3}, und die übrigen Koordinaten hängen nicht von ihr ab. Sie entfällt."
-            : "{1} haben die Form Koordinate = Konstante. Zweimal abgeleitet folgt {2}; längs "
-              "dieser Koordinaten wirkt keine "
-              "Kraft, also {3}, und die übrigen Koordinaten hängen nicht von ihnen ab. Sie "
-              "entfallen.",
+        PL_BOTH(
+            n == 1
+                ? "{1} has the form coordinate = constant. Differentiated twice it gives {2}; no "
+                  "force acts along this "
+                  "coordinate, so {3}, and the other coordinates do not depend on it. It is "
+                  "dropped."
+                : "{1} have the form coordinate = constant. Differentiated twice they give {2}; no "
+                  "force acts along these "
+                  "coordinates, so {3}, and the other coordinates do not depend on them. They are "
+                  "dropped."),
         3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
   }
   n = collect_dropped(d, PL_DROPPED_LOADED, label, second, lambda);
   if (n > 0) {
-    pl_say(d,
-           n == 1 ? "{1}: coordinate = constant, so {2}. The coordinate is inserted and dropped; "
-                    "its own equation still gives the "
-                    "multiplier: {3}."
-                  : "{1}: coordinate = constant, so {2}. The coordinates are inserted and dropped; "
-                    "their own equations still give "
-                    "the multipliers: {3}.",
-           n == 1 ? "{1}: Koordinate = Konstante, also {2}. Die Koordinate wird eingesetzt und "
-                    "entfällt; ihre eigene Gleichung gibt "
-                    "weiterhin den Multiplikator: {3}."
-                  : "{1}: Koordinate = Konstante, also {2}. Die Koordinaten werden eingesetzt und "
-                    "entfallen; ihre eigenen Gleichungen "
-                    "geben weiterhin die Multiplikatoren: {3}.",
-           3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
+    pl_say(
+        d,
+        PL_BOTH(
+            n == 1
+                ? "{1}: coordinate = constant, so {2}. The coordinate is inserted and dropped; "
+                  "its own equation still gives the "
+                  "multiplier: {3}."
+                : "{1}: coordinate = constant, so {2}. The coordinates are inserted and dropped; "
+                  "their own equations still give "
+                  "the multipliers: {3}."),
+        3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
   }
   n = collect_dropped(d, PL_DROPPED_DRIVEN, label, second, lambda);
   if (n > 0) {
-    pl_say(d,
-           "{1}: coordinate = given function of time (rheonomic), so {2}. It is inserted and "
-           "dropped; the drive does work. Its "
-           "multiplier is {3}.",
-           "{1}: Koordinate = gegebene Funktion der Zeit (rheonom), also {2}. Sie wird eingesetzt "
-           "und entfällt; der Antrieb "
-           "leistet Arbeit. Sein Multiplikator ist {3}.",
-           3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
+    pl_say(
+        d,
+        PL_BOTH("{1}: coordinate = given function of time (rheonomic), so {2}. It is inserted and "
+                "dropped; the drive does work. Its "
+                "multiplier is {3}."),
+        3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
   }
 }
 
 // The theorem itself, as steps that are shown on demand.
 static void theorem(pl_analysis* d) {
-  pl_step* s = pl_say(d,
-                      "Why: let {1} with constant a. Lagrange I for this coordinate is {2}, and "
-                      "{3}. So {4}; inserted back, {5}, and with x(0) = a, "
-                      "x'(0) = 0 the coordinate stays at a. It may be inserted from the start; λ_1 "
-                      "is the force of the plane (pleuel explain T101).",
-                      "Warum: es sei {1} mit konstantem a. Lagrange I für diese Koordinate lautet "
-                      "{2}, und {3}. Also {4}; eingesetzt folgt {5}, und mit "
-                      "x(0) = a, x'(0) = 0 bleibt die Koordinate bei a. Sie darf von Anfang an "
-                      "eingesetzt werden; λ_1 ist die Kraft der Ebene "
-                      "(pleuel explain T101).",
-                      5, pl_fn(d, "g_1 = x - a = 0"), pl_fn(d, "m x'' = F + λ_1 + Σ λ_a ∂g_a/∂x"),
-                      pl_fn(d, "x'' = 0"), pl_fn(d, "λ_1 = -F - Σ λ_a ∂g_a/∂x"),
-                      pl_fn(d, "m x'' = 0"));
+  pl_step* s = pl_say(
+      d,
+      PL_BOTH("Why: let {1} with constant a. Lagrange I for this coordinate is {2}, and "
+              "{3}. So {4}; inserted back, {5}, and with x(0) = a, "
+              "x'(0) = 0 the coordinate stays at a. It may be inserted from the start; λ_1 "
+              "is the force of the plane (pleuel explain T101)."),
+      5, pl_fn(d, "g_1 = x - a = 0"), pl_fn(d, "m x'' = F + λ_1 + Σ λ_a ∂g_a/∂x"),
+      pl_fn(d, "x'' = 0"), pl_fn(d, "λ_1 = -F - Σ λ_a ∂g_a/∂x"), pl_fn(d, "m x'' = 0"));
   s->detail = true;
 }
 
@@ -332,29 +310,24 @@ static void say_attitudes(pl_analysis* d) {
     }
     if (!first) continue;
     if (d->g.at[k].source->axes == PL_AXES_QUATERNION) {
-      pl_say(d,
-             n == 1 ? "{1} makes the four numbers that give the attitude of {2} a rotation: a unit "
-                      "quaternion. Its multiplier is no force, "
-                      "since no turning of the body changes |q|."
-                    : "{1} make the four numbers that give the attitude of each {2} a rotation: a "
-                      "unit quaternion. Their multipliers are no "
-                      "forces, since no turning of a body changes |q|.",
-             n == 1 ? "{1} macht aus den vier Zahlen für die Lage von {2} eine Drehung: eine "
-                      "Einheitsquaternion. Ihr Multiplikator ist keine "
-                      "Kraft, denn keine Drehung des Körpers ändert |q|."
-                    : "{1} machen aus den vier Zahlen für die Lage jedes {2} eine Drehung: eine "
-                      "Einheitsquaternion. Ihre Multiplikatoren sind "
-                      "keine Kräfte, denn keine Drehung eines Körpers ändert |q|.",
-             2, pl_flist(d, label, n), pl_fn(d, body));
+      pl_say(
+          d,
+          PL_BOTH(
+              n == 1
+                  ? "{1} makes the four numbers that give the attitude of {2} a rotation: a unit "
+                    "quaternion. Its multiplier is no force, "
+                    "since no turning of the body changes |q|."
+                  : "{1} make the four numbers that give the attitude of each {2} a rotation: a "
+                    "unit quaternion. Their multipliers are no "
+                    "forces, since no turning of a body changes |q|."),
+          2, pl_flist(d, label, n), pl_fn(d, body));
     } else {
-      pl_say(d,
-             "{1} make the axes of {2} unit vectors at right angles. Their multipliers are no "
-             "forces on the body: they keep the axes "
-             "together and do no work when it turns.",
-             "{1} machen aus den Achsen von {2} Einheitsvektoren im rechten Winkel. Ihre "
-             "Multiplikatoren sind keine Kräfte auf den Körper: "
-             "sie halten die Achsen zusammen und leisten bei keiner Drehung Arbeit.",
-             2, pl_flist(d, label, n), pl_fn(d, body));
+      pl_say(
+          d,
+          PL_BOTH("{1} make the axes of {2} unit vectors at right angles. Their multipliers are no "
+                  "forces on the body: they keep the axes "
+                  "together and do no work when it turns."),
+          2, pl_flist(d, label, n), pl_fn(d, body));
     }
   }
 }
@@ -370,10 +343,10 @@ static void show_open(pl_analysis* d, const pl_open* o, bool after_dof) {
   const pl_constraint* c = o->source;
   if (o->contact && !o->released) {
     say_contact(d, c);
-    pl_say(d, "At the start {1} is open.", "Beim Start ist {1} offen.", 1, pl_fn(d, c->name.text));
+    pl_say(d, PL_BOTH("At the start {1} is open."), 1, pl_fn(d, c->name.text));
   } else {
     if (!after_dof) pl_show(d, constraint_form(d, c));
-    pl_say(d, "{1} does not hold here.", "{1} gilt hier nicht.", 1, pl_fn(d, c->name.text));
+    pl_say(d, PL_BOTH("{1} does not hold here."), 1, pl_fn(d, c->name.text));
   }
   pl_answer(d, c->name.text, c->g, pl_difference_form(d, c->left, c->right))->of = c->name.text;
 }
@@ -382,25 +355,27 @@ static void show_open(pl_analysis* d, const pl_open* o, bool after_dof) {
 static void say_freedom(pl_analysis* d) {
   const pl_dof* f = &d->dof;
   int n = count_coordinates(d);
-  pl_say(d,
-         pl_format(d->arena,
-                   "%d coordinates, %d independent constraint%s: %d degree%s of freedom in "
-                   "contact, %d after lift-off.",
-                   n, f->rank, f->rank == 1 ? "" : "s", f->dof, f->dof == 1 ? "" : "s", f->free),
-         pl_format(d->arena,
-                   "%d Koordinaten, %d unabhängige Zwangsbedingung%s: %d Freiheitsgrad%s im "
-                   "Kontakt, %d nach dem Abheben.",
-                   n, f->rank, f->rank == 1 ? "" : "en", f->dof, f->dof == 1 ? "" : "e", f->free),
-         0);
+  const char* constraints = f->rank == 1 ? PL_KEY("constraint") : PL_KEY("constraints");
+  const char* degrees = f->dof == 1 ? PL_KEY("degree of freedom") : PL_KEY("degrees of freedom");
+  pl_say(
+      d,
+      pl_format(d->arena, "%d coordinates, %d independent %s: %d %s in contact, %d after lift-off.",
+                n, f->rank, constraints, f->dof, degrees, f->free),
+      pl_format(
+          d->arena,
+          pl_german("%d coordinates, %d independent %s: %d %s in contact, %d after lift-off."), n,
+          f->rank, pl_german(constraints), f->dof, pl_german(degrees), f->free),
+      0);
 }
 
 void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
   bool after_dof = d->page->section && d->page->solution->sections.n > 0 && ask->letter
                    && d->page->section->letter
                    && strcmp(ask->letter, d->page->section->letter) == 0;
-  pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
+  pl_section_open(d, ask, after_dof ? NULL : "Constraints",
+                  after_dof ? NULL : pl_german("Constraints"));
   bool some_dropped = false;
-  if (count_written(d) + count_open(d) == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);
+  if (count_written(d) + count_open(d) == 0) pl_say(d, PL_BOTH("There are none."), 0);
   for (int k = 0; k < count_written(d); k++) {
     const pl_bond* l = &d->g.at[k];
     some_dropped |= dropped(l);
@@ -411,12 +386,12 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
       row_of_lets(d, l->g);
     }
     if (l->integrated) {
-      pl_say(d,
-             "{1} is given for velocities and can be integrated: {2}. It restricts positions and "
-             "is treated as holonomic.",
-             "{1} ist für Geschwindigkeiten gegeben und lässt sich integrieren: {2}. Sie schränkt "
-             "die Lage ein und gilt als holonom.",
-             2, pl_fn(d, label_of(l)), pl_feq(d, pl_fe(d, l->g), zero_form(d)));
+      pl_say(
+          d,
+          PL_BOTH(
+              "{1} is given for velocities and can be integrated: {2}. It restricts positions and "
+              "is treated as holonomic."),
+          2, pl_fn(d, label_of(l)), pl_feq(d, pl_fe(d, l->g), zero_form(d)));
     }
     pl_value* v = pl_answer(d, label_of(l), l->g,
                             pl_difference_form(d, l->source->left, l->source->right));

@@ -15,7 +15,7 @@ static const pl_form* all_free(pl_analysis* d) {
   for (int k = 0; k < d->gen.n; k++) {
     const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[k]].q)->name;
     pl_text_addf(&words[0], "%s%s", k ? ", " : "any ", name);
-    pl_text_addf(&words[1], "%s%s", k ? ", " : "jedes ", name);
+    pl_text_addf(&words[1], "%s%s", k ? ", " : pl_german("any "), name);
   }
   return pl_form_words(d->arena, pl_text_string(&words[0]), pl_text_string(&words[1]));
 }
@@ -65,10 +65,14 @@ const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r) {
   return n == 1 ? f[0] : pl_flist(d, f, n);
 }
 
+// The verdicts of the linearisation: a key each.
 static const char* german_stability(const char* s) {
-  return strcmp(s, "stable") == 0     ? "stabil"
-         : strcmp(s, "unstable") == 0 ? "instabil"
-                                      : "indifferent";
+  static const char* const verdicts[] = {PL_KEY("stable"), PL_KEY("unstable"),
+                                         PL_KEY("indifferent")};
+  for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++) {
+    if (strcmp(s, verdicts[i]) == 0) return pl_german(verdicts[i]);
+  }
+  return pl_german(verdicts[2]);
 }
 
 // ω² of a place that is known in numbers only.
@@ -104,8 +108,7 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const pl_r
     for (int r = 0; r < d->page->lagrange2_numbers.n; r++)
       pl_step_refs(s, 1, d->page->lagrange2_numbers.at[r]);
     bool zero = pl_vanishes(d, root[k].value);
-    pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations",
-                  zero ? "Nullmode: Drift" : "kleine Schwingungen");
+    pl_step_after(s, PL_BOTH(zero ? "zero mode: it drifts" : "small oscillations"));
     if (x > 0) {
       s->has_value = true;
       s->value = sqrt(x);
@@ -121,9 +124,8 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const pl_r
 }
 
 static void say_pulls(pl_analysis* d, const pl_bond* l, const pl_rest* r) {
-  pl_say(d, "{1} is none: {2} is one-sided and would have to act the other way.",
-         "{1} ist keine: {2} ist einseitig und müsste andersherum wirken.", 2, pl_rest_form(d, r),
-         pl_fn(d, l->source->name.text));
+  pl_say(d, PL_BOTH("{1} is none: {2} is one-sided and would have to act the other way."), 2,
+         pl_rest_form(d, r), pl_fn(d, l->source->name.text));
 }
 
 static void say_singular(pl_analysis* d, const pl_rests* found) {
@@ -133,56 +135,41 @@ static void say_singular(pl_analysis* d, const pl_rests* found) {
   const pl_form* real = pl_conditions_form(d, r->condition, r->n_conditions, false, &text);
   pl_say(
       d,
-      real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these "
-             "coordinates fail there (the mass matrix or a constraint is singular); other "
-             "coordinates decide."
-           : "At positions like {1} the generalized forces vanish too, but these coordinates fail "
-             "there (the mass matrix or a constraint is singular); other "
-             "coordinates decide.",
-      real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber "
-             "diese Koordinaten versagen dort (die Massenmatrix oder eine "
-             "Zwangsbedingung ist singulär); andere Koordinaten entscheiden."
-           : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese "
-             "Koordinaten versagen dort (die Massenmatrix oder eine Zwangsbedingung ist singulär); "
-             "andere Koordinaten entscheiden.",
+      PL_BOTH(real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these "
+                     "coordinates fail there (the mass matrix or a constraint is singular); other "
+                     "coordinates decide."
+                   : "At positions like {1} the generalized forces vanish too, but these "
+                     "coordinates fail "
+                     "there (the mass matrix or a constraint is singular); other "
+                     "coordinates decide."),
       real ? 2 : 1, pl_rest_form(d, r), real);
 }
 
 void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l) {
   if (l->damped) {
-    pl_say(d, "The motion is damped; ω² is that of the system without damping.",
-           "Die Bewegung ist gedämpft; ω² ist das ohne Dämpfung.", 0);
+    pl_say(d, PL_BOTH("The motion is damped; ω² is that of the system without damping."), 0);
   }
 }
 
 // ------------------------------------------------------------------------------------ one position
 static void say_doubt(pl_analysis* d, pl_doubt doubt) {
-  static const char* const words[][2] = {
-      [PL_DOUBT_GYROSCOPIC] = {"No minimum of the potential is proven here; the gyroscopic terms "
-                               "decide with the signs of ω².",
-                               "Ein Minimum des Potentials ist hier nicht bewiesen; die "
-                               "gyroskopischen Terme entscheiden mit den Vorzeichen von ω²."},
-      [PL_DOUBT_CIRCULATORY] = {"Forces without potential depend on the position: the potential "
-                                "does not decide on stability, the ω² do.",
-                                "Kräfte ohne Potential hängen vom Ort ab: über die Stabilität "
-                                "entscheidet nicht das Potential, sondern die ω²."},
-      [PL_DOUBT_DRIVEN] =
-          {"The forces around it change with time: a potential does not decide on stability.",
-           "Die Kräfte in der Umgebung ändern sich mit der Zeit: über die Stabilität entscheidet "
-           "kein Potential."},
-      [PL_DOUBT_DAMPING] = {"A force along the velocity may feed energy in: the potential alone "
-                            "does not decide on stability.",
-                            "Eine Kraft längs der Geschwindigkeit kann Energie zuführen: das "
-                            "Potential allein entscheidet nicht über die Stabilität."},
-      [PL_DOUBT_INERTIA] =
-          {"The kinetic energy is not positive here: the potential does not decide on stability.",
-           "Die kinetische Energie ist hier nicht positiv: das Potential entscheidet nicht über "
-           "die Stabilität."},
-      [PL_DOUBT_DEGENERATE] =
-          {"The linear terms of the force do not decide on stability.",
-           "Die linearen Terme der Kraft entscheiden nicht über die Stabilität."},
+  static const char* const words[] = {
+      [PL_DOUBT_GYROSCOPIC] = PL_KEY(
+          "No minimum of the potential is proven here; the gyroscopic terms "
+          "decide with the signs of ω²."),
+      [PL_DOUBT_CIRCULATORY] = PL_KEY(
+          "Forces without potential depend on the position: the potential "
+          "does not decide on stability, the ω² do."),
+      [PL_DOUBT_DRIVEN] = PL_KEY(
+          "The forces around it change with time: a potential does not decide on stability."),
+      [PL_DOUBT_DAMPING] = PL_KEY(
+          "A force along the velocity may feed energy in: the potential alone "
+          "does not decide on stability."),
+      [PL_DOUBT_INERTIA] = PL_KEY(
+          "The kinetic energy is not positive here: the potential does not decide on stability."),
+      [PL_DOUBT_DEGENERATE] = PL_KEY("The linear terms of the force do not decide on stability."),
   };
-  if (doubt != PL_DOUBT_NONE) pl_say(d, words[doubt][0], words[doubt][1], 0);
+  if (doubt != PL_DOUBT_NONE) pl_say(d, PL_BOTH(words[doubt]), 0);
 }
 
 static void say_existence(pl_analysis* d, const pl_rest* r, pl_value* v) {
@@ -191,10 +178,8 @@ static void say_existence(pl_analysis* d, const pl_rest* r, pl_value* v) {
     v->exists_if = NULL;
     return;
   }
-  if (pl_rest_exists_at_numbers(d, r)) pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, form);
-  else
-    pl_say(d, "exists if {1}, not for the given numbers",
-           "besteht, wenn {1}, nicht bei den gegebenen Zahlen", 1, form);
+  if (pl_rest_exists_at_numbers(d, r)) pl_say(d, PL_BOTH("exists if {1}"), 1, form);
+  else pl_say(d, PL_BOTH("exists if {1}, not for the given numbers"), 1, form);
 }
 
 static void say_stability(pl_analysis* d, const pl_verdict* judged, pl_value* v) {
@@ -204,7 +189,7 @@ static void say_stability(pl_analysis* d, const pl_verdict* judged, pl_value* v)
   }
   if (judged->word || judged->n == 0) return;
   const pl_form* form = pl_conditions_form(d, judged->condition, judged->n, true, &v->stable_if);
-  if (form) pl_say(d, "stable if {1}", "stabil, wenn {1}", 1, form);
+  if (form) pl_say(d, PL_BOTH("stable if {1}"), 1, form);
   else v->stable_if = NULL;
 }
 
@@ -214,9 +199,9 @@ static void mark_stability(pl_analysis* d, pl_step* step, const pl_verdict* judg
   if (judged->word || !judged->at_numbers) return;
   if (r->numeric) pl_step_after(step, judged->at_numbers, german_stability(judged->at_numbers));
   else
-    pl_step_after(
-        step, pl_format(d->arena, "%s for the given numbers", judged->at_numbers),
-        pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(judged->at_numbers)));
+    pl_step_after(step, pl_format(d->arena, "%s for the given numbers", judged->at_numbers),
+                  pl_format(d->arena, pl_german("%s for the given numbers"),
+                            german_stability(judged->at_numbers)));
 }
 
 // Proposed coordinates are not those of the model: the place in these. Returns how many; also where
@@ -278,8 +263,7 @@ static void show_border_rest(pl_analysis* d, const pl_rest* r, int number) {
                 .order = -1};
   name_components(d, r, &v);
   pl_push(d->arena, d->page->section->values, v);
-  pl_say(d, "Here a force has a kink: stability was not looked at.",
-         "Hier hat eine Kraft einen Knick: die Stabilität wurde nicht untersucht.", 0);
+  pl_say(d, PL_BOTH("Here a force has a kink: stability was not looked at."), 0);
 }
 
 static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
@@ -337,36 +321,29 @@ static bool rubs_at_rest(pl_analysis* d) {
 bool pl_rests_out_of_reach(pl_analysis* d) {
   if (d->reduced && rubs_at_rest(d)) {
     pl_say(d,
-           "A force jumps where a velocity changes its sign, as dry friction does: it can hold the "
-           "system at rest in whole regions, which are not looked for.",
-           "Eine Kraft springt, wo eine Geschwindigkeit ihr Vorzeichen wechselt, wie trockene "
-           "Reibung: sie kann das System in ganzen Bereichen in Ruhe halten, die nicht gesucht "
-           "werden.",
+           PL_BOTH("A force jumps where a velocity changes its sign, as dry friction does: it can "
+                   "hold the "
+                   "system at rest in whole regions, which are not looked for."),
            0);
     d->page->section->not_found = true;
     return true;
   }
   if (d->reduced && d->gen.n == 0) {
-    pl_say(d, "No coordinate is free: the constraints give the position.",
-           "Keine Koordinate ist frei: die Zwangsbedingungen geben die Lage.", 0);
+    pl_say(d, PL_BOTH("No coordinate is free: the constraints give the position."), 0);
     return true;
   }
   if (d->reduced && d->gen.n <= pl_max_gen) return false;
   if (!d->reduced) {
-    pl_say(d,
-           "They are sought in generalized coordinates, and the constraints were not solved for "
-           "such. Name them: choose φ with ...",
-           "Sie werden in verallgemeinerten Koordinaten gesucht, und danach sind die "
-           "Zwangsbedingungen nicht aufgelöst. Man nenne sie: choose φ with ...",
-           0);
+    pl_say(
+        d,
+        PL_BOTH(
+            "They are sought in generalized coordinates, and the constraints were not solved for "
+            "such. Name them: choose φ with ..."),
+        0);
   } else {
     pl_say(d,
-           pl_format(d->arena,
-                     "They are sought for up to %d generalized coordinates; here there are %d.",
-                     pl_max_gen, d->gen.n),
-           pl_format(
-               d->arena,
-               "Sie werden für höchstens %d verallgemeinerte Koordinaten gesucht; hier sind es %d.",
+           PL_BOTH_FORMAT(
+               d->arena, "They are sought for up to %d generalized coordinates; here there are %d.",
                pl_max_gen, d->gen.n),
            0);
   }
@@ -395,12 +372,12 @@ static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
     bool steady = place >= 0 && !pl_has_coordinates(d, c->right)
                   && !pl_has_symbol(d->pool, c->right, pl_time(d->pool));
     if (!steady || pl_alg_is_zero(d->tower, pl_diff(d->pool, d->Lg, d->q.at[i].q)) != PL_YES) {
-      pl_say(d,
-             "After `for` the velocity of a cyclic coordinate is given a constant value, as in φ' "
-             "= Ω.",
-             "Nach `for` erhält die Geschwindigkeit einer zyklischen Koordinate einen festen Wert, "
-             "wie in φ' = Ω.",
-             0);
+      pl_say(
+          d,
+          PL_BOTH(
+              "After `for` the velocity of a cyclic coordinate is given a constant value, as in φ' "
+              "= Ω."),
+          0);
       end_of_steady(d);
       d->page->section->not_found = true;
       return false;
@@ -413,24 +390,24 @@ static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
 }
 
 static void say_turns(pl_analysis* d) {
-  pl_say(d,
-         "There are others: of an angle one period is listed, and the system as a whole does not "
-         "repeat with it.",
-         "Es gibt weitere: von einem Winkel steht eine Periode da, und das System als Ganzes "
-         "wiederholt sich mit ihr nicht.",
-         0);
+  pl_say(
+      d,
+      PL_BOTH(
+          "There are others: of an angle one period is listed, and the system as a whole does not "
+          "repeat with it."),
+      0);
 }
 
 // Whether the list is all there is, and how that is known.
 void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* found) {
   for (int k = 0; k < d->gen.n && found->n > 0; k++) {
     if (!pl_rests_recur(d, f, k)) continue;
-    pl_say(d,
-           "The forces repeat with whole periods of {1}, the places do not: beside each of these "
-           "there are others, whole periods further.",
-           "Die Kräfte wiederholen sich mit ganzen Perioden von {1}, die Lagen nicht: zu jeder "
-           "gibt es weitere, ganze Perioden entfernt.",
-           1, pl_fs(d, d->q.at[d->gen.at[k]].q));
+    pl_say(
+        d,
+        PL_BOTH(
+            "The forces repeat with whole periods of {1}, the places do not: beside each of these "
+            "there are others, whole periods further."),
+        1, pl_fs(d, d->q.at[d->gen.at[k]].q));
   }
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   if (found->complete && found->by_numbers && found->searched > 0) {
@@ -441,36 +418,32 @@ void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* foun
       range = pl_form_power(d->arena, range, pl_form_leaf(d->arena, digits));
     const pl_form* q = pl_form_call(d->arena, PL_ABS, &inside, 1);
     bool alone = d->gen.n == 1;
-    pl_say(d,
-           alone ? "With {1}, in SI units, there are no others: interval arithmetic proves it for "
-                   "the given numbers."
-                 : "With {1}, in SI units, and up to whole periods of other angles there are no "
-                   "others: interval arithmetic proves it for the given numbers.",
-           alone ? "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die "
-                   "Intervallarithmetik für die gegebenen Zahlen."
-                 : "Mit {1}, in SI-Einheiten, und bis auf ganze Perioden anderer Winkel gibt es "
-                   "keine weiteren: das beweist die Intervallarithmetik für die "
-                   "gegebenen Zahlen.",
-           1, pl_frel(d, q, "≤", range));
+    pl_say(
+        d,
+        PL_BOTH(
+            alone ? "With {1}, in SI units, there are no others: interval arithmetic proves it for "
+                    "the given numbers."
+                  : "With {1}, in SI units, and up to whole periods of other angles there are no "
+                    "others: interval arithmetic proves it for the given numbers."),
+        1, pl_frel(d, q, "≤", range));
   } else if (found->complete && found->by_numbers) {
-    pl_say(d,
-           "Up to whole periods there are no others: interval arithmetic proves it for the given "
-           "numbers.",
-           "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für "
-           "die gegebenen Zahlen.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH(
+            "Up to whole periods there are no others: interval arithmetic proves it for the given "
+            "numbers."),
+        0);
   }
   if (found->complete) return;
   bool side = found->n_sides > 0;
   if (side)
-    pl_say(d, "Only places with {1} were looked at.", "Gesucht wurde nur unter Lagen mit {1}.", 1,
+    pl_say(d, PL_BOTH("Only places with {1} were looked at."), 1,
            pl_facts_form(d, found->side, found->n_sides));
   if (found->map_ends) {
     pl_say(d,
-           "Where a root of the map vanishes these coordinates end, and beyond it the mechanism is "
-           "assembled in another way: there may be others.",
-           "Wo eine Wurzel der Abbildung verschwindet, enden diese Koordinaten, und dahinter ist "
-           "der Mechanismus anders zusammengebaut: es kann weitere geben.",
+           PL_BOTH("Where a root of the map vanishes these coordinates end, and beyond it the "
+                   "mechanism is "
+                   "assembled in another way: there may be others."),
            0);
   }
   bool told = found->more_turns || side || found->map_ends;
@@ -485,18 +458,14 @@ void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* foun
     pl_expr e = pl_alg_normal(
         d->tower, pl_insert_rest(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[r->open_row])), r));
     pl_say(d,
-           found->n > 0 ? "There may be others: {1} is not solved in closed form."
-                        : "{1} is not solved in closed form.",
-           found->n > 0 ? "Es kann weitere geben: {1} ist nicht geschlossen lösbar."
-                        : "{1} ist nicht geschlossen lösbar.",
+           PL_BOTH(found->n > 0 ? "There may be others: {1} is not solved in closed form."
+                                : "{1} is not solved in closed form."),
            1, pl_feq(d, pl_f(d, e, PL_S_EQUATION), zero));
   }
   if (found->n_open > 0 || told) return;
   pl_say(d,
-         found->n > 0 ? "There may be others: not every equation was solved in closed form."
-                      : "None was found in closed form.",
-         found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar."
-                      : "Geschlossen wurde keine gefunden.",
+         PL_BOTH(found->n > 0 ? "There may be others: not every equation was solved in closed form."
+                              : "None was found in closed form."),
          0);
 }
 
@@ -507,9 +476,10 @@ void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
   for (int k = 0; k < d->gen.n; k++) {
     pl_expr left = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], &r));
     if (pl_is_zero_node(d->pool, left)) continue;
-    pl_say(d, "{1} is no position of rest: the equation of {2} there leaves {3}, which is not 0.",
-           "{1} ist keine Ruhelage: von der Gleichung für {2} bleibt dort {3}, was nicht 0 ist.", 3,
-           pl_rest_form(d, &r), pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
+    pl_say(d,
+           PL_BOTH(
+               "{1} is no position of rest: the equation of {2} there leaves {3}, which is not 0."),
+           3, pl_rest_form(d, &r), pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
     break;
   }
   d->page->section->not_found = true;
@@ -518,12 +488,11 @@ void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
 static void say_none(pl_analysis* d, const pl_expr* f) {
   bool moves = false;
   for (int k = 0; k < d->gen.n; k++) moves |= pl_has_symbol(d->pool, f[k], pl_time(d->pool));
-  pl_say(d,
-         moves ? "There is none: the equations contain t, and no position fits at all times."
-               : "There is none.",
-         moves ? "Es gibt keine: die Gleichungen enthalten t, und keine Lage passt zu allen Zeiten."
-               : "Es gibt keine.",
-         0);
+  pl_say(
+      d,
+      PL_BOTH(moves ? "There is none: the equations contain t, and no position fits at all times."
+                    : "There is none."),
+      0);
 }
 
 // What was shown so far, with the analysis whose coordinates it is in.
@@ -631,9 +600,8 @@ bool pl_say_bends(pl_analysis* d, const pl_expr* f) {
   if (!finds_kinks(d, f, &left)) return false;
   const pl_form** at = PL_ARRAY(d->arena, const pl_form*, left.n_sides + 1);
   for (int k = 0; k < left.n_sides; k++) at[k] = pl_border_form(d, left.side[k].difference);
-  pl_say(d, "The forces have a kink at {1}; `equilibria` looks at the sides one by one.",
-         "Die Kräfte haben einen Knick bei {1}; `equilibria` untersucht die Seiten einzeln.", 1,
-         pl_flist(d, at, left.n_sides));
+  pl_say(d, PL_BOTH("The forces have a kink at {1}; `equilibria` looks at the sides one by one."),
+         1, pl_flist(d, at, left.n_sides));
   d->page->section->not_found = true;
   return true;
 }
@@ -660,7 +628,7 @@ static bool answer_beyond(pl_analysis* d, const pl_ask* ask, const pl_rests* own
   int inside = 0;
   for (int k = 0; k < found->n; k++) inside += !pl_rest_on_border(a, found, &found->at[k]);
   if (inside > 0) {
-    pl_say(a, "With {1}:", "Mit {1}:", 1, pl_facts_form(a, found->side, found->n_sides));
+    pl_say(a, PL_BOTH("With {1}:"), 1, pl_facts_form(a, found->side, found->n_sides));
     int from = a->page->section->values.n;
     show_found(a, f, found, shown);
     pl_assume_sides(a, a->page->section, from);
@@ -691,18 +659,15 @@ static void show_border(pl_analysis* d, pl_shown* shown) {
 static void say_kinks(pl_analysis* d, const pl_rests* own, const pl_shown* shown) {
   const pl_form** at = PL_ARRAY(d->arena, const pl_form*, own->n_sides + 1);
   for (int k = 0; k < own->n_sides; k++) at[k] = pl_border_form(d, own->side[k].difference);
-  pl_say(d,
-         shown->border.n > 0 ? "Not looked at: other places with {1}, where a force may jump."
-                             : "Not looked at: places with {1}, where a force may jump.",
-         shown->border.n > 0
-             ? "Nicht untersucht: andere Lagen mit {1}, wo eine Kraft springen kann."
-             : "Nicht untersucht: Lagen mit {1}, wo eine Kraft springen kann.",
-         1, pl_flist(d, at, own->n_sides));
+  pl_say(
+      d,
+      PL_BOTH(shown->border.n > 0 ? "Not looked at: other places with {1}, where a force may jump."
+                                  : "Not looked at: places with {1}, where a force may jump."),
+      1, pl_flist(d, at, own->n_sides));
 }
 
 static void say_more(pl_analysis* d) {
-  pl_say(d, "There may be others: not every equation was solved in closed form.",
-         "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar.", 0);
+  pl_say(d, PL_BOTH("There may be others: not every equation was solved in closed form."), 0);
 }
 
 // On all sides of what was taken for granted, or on all but the own one.  false: some could not be
@@ -721,7 +686,7 @@ static bool answer_all_sides(pl_analysis* d, const pl_ask* ask, const pl_rests* 
 }
 
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
+  pl_section_open(d, ask, PL_BOTH("Equilibria"));
   pl_expr f[pl_max_gen];
   if (pl_rests_out_of_reach(d)) return;
   if (ask->where.n > 0 && !turns_steadily(d, ask)) return;

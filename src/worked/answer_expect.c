@@ -130,7 +130,7 @@ static pl_expr side_of(pl_analysis* d, const pl_ask* ask, pl_expr e, bool* unuse
 }
 
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Expected", "Erwartet");
+  pl_section_open(d, ask, PL_BOTH("Expected"));
   const pl_condition* c = &ask->where.at[0];
   bool unused = false;  // the start gives no velocities
   pl_expr left = side_of(d, ask, c->left, &unused), right = side_of(d, ask, c->right, &unused);
@@ -159,16 +159,14 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
   v->got = left;
   if (pl_not_determined(d, pl_alg_normal(d->tower, pl_sub(d->pool, left, right)))) {
     pl_say(d,
-           "{1}: no, this is not determined; only sums of the forces of constraints that depend on "
-           "each other are.",
-           "{1}: nein, das ist nicht bestimmt; nur Summen der Kräfte voneinander abhängiger "
-           "Zwangsbedingungen sind es.",
+           PL_BOTH("{1}: no, this is not determined; only sums of the forces of constraints that "
+                   "depend on "
+                   "each other are."),
            1, claim);
     d->page->solution->expect_failed = true;
     return;
   }
   const pl_form* got = pl_feq(d, pl_fe(d, c->left), pl_f(d, left, PL_S_QUOTIENT));
-  pl_say(d, equal == PL_NO ? "{1}: no, {2}" : "{1}: not decided; {2}",
-         equal == PL_NO ? "{1}: nein, {2}" : "{1}: nicht entschieden; {2}", 2, claim, got);
+  pl_say(d, PL_BOTH(equal == PL_NO ? "{1}: no, {2}" : "{1}: not decided; {2}"), 2, claim, got);
   d->page->solution->expect_failed = true;
 }

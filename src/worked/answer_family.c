@@ -225,10 +225,9 @@ static void show_equation(pl_family_pass* f, long lo, long hi) {
   pl_expr force = rest_of(d, euler);
   part[0] = pl_f(d, pl_alg_normal(d->tower, pl_neg(d->pool, force)), PL_S_EQUATION);
   if (lo == hi) {
-    pl_say(d, pl_format(d->arena, "for i = %ld:", lo), pl_format(d->arena, "für i = %ld:", lo), 0);
+    pl_say(d, PL_BOTH_FORMAT(d->arena, "for i = %ld:", lo), 0);
   } else {
-    pl_say(d, pl_format(d->arena, "for i = %ld … %ld:", lo, hi),
-           pl_format(d->arena, "für i = %ld … %ld:", lo, hi), 0);
+    pl_say(d, PL_BOTH_FORMAT(d->arena, "for i = %ld … %ld:", lo, hi), 0);
   }
   const pl_form* left = pl_f(d, pl_alg_normal(d->tower, pl_sub(d->pool, euler, force)),
                              PL_S_EQUATION);
@@ -266,10 +265,8 @@ static bool equations_of(pl_family_pass* f, const pl_coord* c) {
 static void lagrange1(pl_analysis* d, const pl_ask* ask) {
   bool minus = d->model->lambda_minus;
   pl_section_open(d, ask,
-                  minus ? "Lagrange equations of the first kind, with Z = -Σ λ ∇g"
-                        : "Lagrange equations of the first kind, with Z = Σ λ ∇g",
-                  minus ? "Lagrange-Gleichungen erster Art mit Z = -Σ λ ∇g"
-                        : "Lagrange-Gleichungen erster Art mit Z = Σ λ ∇g");
+                  PL_BOTH(minus ? "Lagrange equations of the first kind, with Z = -Σ λ ∇g"
+                                : "Lagrange equations of the first kind, with Z = Σ λ ∇g"));
   pl_family_pass f = {.d = d};
   pl_symbol_info info = {.name = "i", .ascii = "i", .role = PL_R_INDEX};
   f.i = pl_symbol_find(d->pool, "i");
@@ -286,10 +283,10 @@ static long count_instances(pl_analysis* d, const pl_block* b) {
 }
 
 static void dof(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
+  pl_section_open(d, ask, PL_BOTH("Degrees of freedom"));
   const pl_dof* f = &d->page->solution->dof;
   bool contacts = false;
-  pl_row(d, "coordinates", "Koordinaten", NULL, pl_format(d->arena, "%d", f->coordinates));
+  pl_row(d, PL_BOTH("coordinates"), NULL, pl_format(d->arena, "%d", f->coordinates));
   for (int k = 0; k < d->model->constraints.n; k++) {
     const pl_constraint* c = &d->model->constraints.at[k];
     static const char* const signs[] = {[PL_EQ] = "=", [PL_GE] = "≥", [PL_LE] = "≤"};
@@ -301,23 +298,21 @@ static void dof(pl_analysis* d, const pl_ask* ask) {
                             ? c->name.text
                             : pl_format(d->arena, "%s[%s]", c->name.text,
                                         pl_expr_text(d->arena, d->pool, c->name.index));
-    pl_row(d, k ? "" : "constraints", k ? "" : "Zwangsbedingungen",
-           pl_feq(d, pl_fn(d, label), body),
+    pl_row(d, PL_BOTH(k ? "" : "constraints"), pl_feq(d, pl_fn(d, label), body),
            pl_format(d->arena, "-%ld", count_instances(d, c->block)));
   }
-  pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL, pl_format(d->arena, "%d", f->dof));
-  pl_say(d, "Counted, not tested for independence: the families are too large to be written out.",
-         "Gezählt, nicht auf Unabhängigkeit geprüft: die Familien sind zu groß, um ausgeschrieben "
-         "zu werden.",
+  pl_row(d, PL_BOTH("degrees of freedom"), NULL, pl_format(d->arena, "%d", f->dof));
+  pl_say(d,
+         PL_BOTH(
+             "Counted, not tested for independence: the families are too large to be written out."),
          0);
   if (contacts) {
-    pl_say(d,
-           "One-sided constraints are counted as closed, each with λ on the side where it pushes; "
-           "where one is open its λ is 0.",
-           "Einseitige Zwangsbedingungen sind als geschlossen gezählt, jede mit λ auf der Seite, "
-           "auf der sie drückt; "
-           "wo eine offen ist, ist ihr λ gleich 0.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH(
+            "One-sided constraints are counted as closed, each with λ on the side where it pushes; "
+            "where one is open its λ is 0."),
+        0);
   }
   pl_answer(d, "dof", pl_int(d->pool, f->dof), NULL);
 }

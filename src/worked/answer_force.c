@@ -59,8 +59,7 @@ static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) 
   pl_expr E = pl_conserved_energy(d);
   pl_replace start[2] = {{c->q, q0}, {c->v, v0}};
   pl_expr E0 = pl_alg_normal(d->tower, pl_subst(d->pool, E, start, 2));
-  pl_say(d, "The energy is conserved; from {1}:", "Energieerhaltung mit dem Start {1}:", 1,
-         at_start(d, c, q0, v0));
+  pl_say(d, PL_BOTH("The energy is conserved; from {1}:"), 1, at_start(d, c, q0, v0));
   pl_show(d, pl_feq(d, pl_f(d, E, PL_S_ENERGY), pl_f(d, E0, PL_S_ENERGY)));
   const pl_form* square = pl_form_power(d->arena, pl_fs(d, c->v),
                                         pl_form_leaf(d->arena, pl_int(d->pool, 2)));
@@ -81,16 +80,15 @@ static int show_line(pl_analysis* d, const pl_line* l) {
   const pl_form* square = pl_form_power(d->arena, pl_fs(d, c->v),
                                         pl_form_leaf(d->arena, pl_int(d->pool, 2)));
   if (l->drag) {
-    pl_say(d,
-           "{1} contains {2} only as its square, which follows from d({3})/d{4} = 2 {1}, an "
-           "equation linear in {3}:",
-           "{1} enthält {2} nur im Quadrat, das aus d({3})/d{4} = 2 {1} folgt, einer in {3} "
-           "linearen Gleichung:",
-           4, pl_fs(d, c->a), pl_fs(d, c->v), square, pl_fs(d, c->q));
+    pl_say(
+        d,
+        PL_BOTH("{1} contains {2} only as its square, which follows from d({3})/d{4} = 2 {1}, an "
+                "equation linear in {3}:"),
+        4, pl_fs(d, c->a), pl_fs(d, c->v), square, pl_fs(d, c->q));
   } else {
     pl_say(
-        d, "The energy and the momenta of cyclic coordinates are conserved; from this start:",
-        "Die Energie und die Impulse zyklischer Koordinaten sind erhalten; von diesem Start aus:",
+        d,
+        PL_BOTH("The energy and the momenta of cyclic coordinates are conserved; from this start:"),
         0);
     for (int k = 0; k < l->n; k++) {
       pl_show(d, pl_feq(d, pl_f(d, l->momentum[k], PL_S_ENERGY),
@@ -112,9 +110,7 @@ static void show_differentiated(pl_analysis* d, int k) {
                pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed)))))};
     pl_show(d, pl_flist(d, f, 2));
     int row = d->page->number_lagrange1 > 0 ? d->page->number_lagrange1 : 0;
-    if (row)
-      pl_say(d, "inserted into the equation of {1}:", "in die Gleichung von {1} eingesetzt:", 1,
-             pl_fs(d, c->q));
+    if (row) pl_say(d, PL_BOTH("inserted into the equation of {1}:"), 1, pl_fs(d, c->q));
   }
 }
 
@@ -130,8 +126,7 @@ static pl_step* show_lambda_for(pl_analysis* d, int k, bool moves) {
     if (!pl_is_poison(row)) form = pl_f(d, row, PL_S_QUOTIENT);
   }
   form = pl_positive_first(d, form);
-  if (i >= 0)
-    pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
+  if (i >= 0) pl_say(d, PL_BOTH("From the equation of {1}:"), 1, pl_fs(d, d->q.at[i].q));
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
   pl_claim_that(d, PL_CLAIM_MOTION, l->lambda_value, pl_sym(d->pool, l->lambda));
@@ -161,8 +156,7 @@ static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion
     bool alone = d->gen.n == 1 && !line.drag;
     int number = alone ? show_elimination(d, line.v2, line.q0, line.v0) : show_line(d, &line);
     if (out.number)
-      pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, pl_fref(d, number),
-             pl_fref(d, out.number));
+      pl_say(d, PL_BOTH("{1} inserted into {2}:"), 2, pl_fref(d, number), pl_fref(d, out.number));
   }
   out.value = pl_along_line(d, &line, l->lambda_value);
   out.eliminated = true;
@@ -216,15 +210,14 @@ static bool lambda_over_names(pl_analysis* d, int k, pl_lambda_value* out) {
 static void say_on(pl_analysis* d, pl_step* step, const char* label, const pl_force* f,
                    bool only_one) {
   const char* en = pl_format(d->arena, "on %s", label);
-  const char* de = pl_format(d->arena, "auf %s", label);
+  const char* de = pl_format(d->arena, pl_german("on %s"), label);
   if (f->reaction_to >= 0) {
     const char* other = d->particle.at[f->reaction_to].label;
     en = pl_format(d->arena, "on %s, the reaction to the force on %s", label, other);
-    de = pl_format(d->arena, "auf %s, Gegenkraft zur Kraft auf %s", label, other);
+    de = pl_format(d->arena, pl_german("on %s, the reaction to the force on %s"), label, other);
   } else if (!f->whole) {
     en = pl_format(d->arena, "on %s, in the directions in which it can move", label);
-    de = pl_format(d->arena, "auf %s, in den Richtungen, in denen sich %s bewegen kann", label,
-                   label);
+    de = pl_format(d->arena, pl_german("on %s, in the directions in which it can move"), label);
   } else if (only_one) {
     return;
   }
@@ -279,12 +272,9 @@ static void compare_with_free_fall(pl_analysis* d, int i) {
   const pl_form* fall = pl_f(d, free_fall, PL_S_QUOTIENT);
   double x = pl_number(d, ratio);
   if (x > 0 && x < 1) {
-    pl_say(d, "Slowed free fall: the acceleration is {2} times {1}.",
-           "Verlangsamter freier Fall: die Beschleunigung ist das {2}-fache von {1}.", 2, fall,
-           form);
+    pl_say(d, PL_BOTH("Slowed free fall: the acceleration is {2} times {1}."), 2, fall, form);
   } else {
-    pl_say(d, "Compared with free fall, {1}, the acceleration is {2} times as large.",
-           "Verglichen mit dem freien Fall, {1}, ist die Beschleunigung das {2}-fache.", 2,
+    pl_say(d, PL_BOTH("Compared with free fall, {1}, the acceleration is {2} times as large."), 2,
            pl_feq(d, pl_fs(d, d->q.at[i].a), fall), form);
   }
   pl_claim_that(d, PL_CLAIM_MOTION, pl_mul(d->pool, pl_form_value(d->pool, form), free_fall),
@@ -301,31 +291,31 @@ static void say_equilibrium_start(pl_analysis* d, const pl_motion* motion, int k
   if (pl_velocity_squared(d, &init, &v2, &q0, &v0))
     from_init = pl_without_velocity(d, d->g.at[k].lambda_value, v2);
   const pl_form* there = pl_feq(d, pl_fs(d, c->q), pl_fe(d, motion->from[0].right));
-  pl_step* s = pl_say(d,
-                      "{1} at rest is an equilibrium: the exact motion never leaves it. The result "
-                      "is the limit of starts close to it.",
-                      "{1} in Ruhe ist eine Gleichgewichtslage: die exakte Bewegung verlässt sie "
-                      "nie. Das Ergebnis ist der Grenzfall naher Starts.",
-                      1, there);
+  pl_step* s = pl_say(
+      d,
+      PL_BOTH("{1} at rest is an equilibrium: the exact motion never leaves it. The result "
+              "is the limit of starts close to it."),
+      1, there);
   s->kind = PL_STEP_NOTE;
   if (pl_is_poison(from_init)) return;
   const pl_form* value = pl_feq(d, pl_fs(d, d->g.at[k].lambda), pl_f(d, from_init, PL_S_QUOTIENT));
-  s = pl_say(d, "From a start as in init: {1}.", "Mit einem Start wie in init: {1}.", 1, value);
+  s = pl_say(d, PL_BOTH("From a start as in init: {1}."), 1, value);
   s->kind = PL_STEP_NOTE;
 }
 
 // ---------------------------------------------------------------------------------------- sections
 static void not_attributable(pl_analysis* d, int k) {
   pl_say(
-      d, "{1} acts on coordinates that several masses share; its generalized force is λ times:",
-      "{1} wirkt auf Koordinaten, die mehrere Massen teilen; die verallgemeinerte Kraft ist λ mal:",
+      d,
+      PL_BOTH(
+          "{1} acts on coordinates that several masses share; its generalized force is λ times:"),
       1, pl_fn(d, d->g.at[k].source->name.text));
   for (int i = 0; i < d->q.n; i++) {
     pl_expr g = pl_alg_normal(d->tower, pl_on_fixed(d, d->g.at[k].gradient[i]));
     if (pl_is_zero_node(d->pool, g)) continue;
     pl_step* s = pl_show(d, pl_f(d, g, PL_S_PLAIN));
     const char* name = pl_symbol_get(d->pool, d->q.at[i].q)->name;
-    pl_step_after(s, pl_format(d->arena, "along %s", name), pl_format(d->arena, "längs %s", name));
+    pl_step_after(s, PL_BOTH_FORMAT(d->arena, "along %s", name));
   }
 }
 
@@ -338,14 +328,13 @@ static void answer_lambda(pl_analysis* d, int k, const pl_lambda_value* lambda) 
 
 static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   const char* label = d->g.at[k].source->name.text;
-  pl_section_open(d, ask, pl_format(d->arena, "Force of %s", label),
-                  pl_format(d->arena, "Zwangskraft von %s", label));
+  pl_section_open(d, ask, PL_BOTH_FORMAT(d->arena, "Force of %s", label));
   if (pl_say_shared(d, k)) return;
   pl_lambda_value lambda;
   bool stays = lambda_over_names(d, k, &lambda);
   if (!stays && !d->g.at[k].lambda_known) {
-    pl_say(d, "The multiplier of {1} is not determined in closed form.",
-           "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1, pl_fn(d, label));
+    pl_say(d, PL_BOTH("The multiplier of {1} is not determined in closed form."), 1,
+           pl_fn(d, label));
     d->page->section->not_found = true;
     return;
   }
@@ -391,12 +380,10 @@ static int together_on(pl_analysis* d, int m) {
   for (int j = 0; j < sum.n; j++) {
     value[j] = pl_alg_normal(d->tower, value[j]);
     if (!pl_not_determined(d, value[j])) continue;
-    pl_say(d, "The forces of {1} on it are not determined.",
-           "Die Kräfte von {1} darauf sind nicht bestimmt.", 1, pl_flist(d, name, n));
+    pl_say(d, PL_BOTH("The forces of {1} on it are not determined."), 1, pl_flist(d, name, n));
     return n;
   }
-  pl_say(d, "{1} together (each alone is not determined):",
-         "{1} zusammen (einzeln nicht bestimmt):", 1, pl_flist(d, name, n));
+  pl_say(d, PL_BOTH("{1} together (each alone is not determined):"), 1, pl_flist(d, name, n));
   pl_show_numbered(d, pl_feq(d, pl_fl(d, "Z"), vector_of(d, &sum, value, PL_S_QUOTIENT)));
   answer_components(d, NULL, d->particle.at[m].label, &sum, value);
   return n;
@@ -404,8 +391,7 @@ static int together_on(pl_analysis* d, int m) {
 
 static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
   const char* label = d->particle.at[m].label;
-  pl_section_open(d, ask, pl_format(d->arena, "Constraint forces on %s", label),
-                  pl_format(d->arena, "Zwangskräfte auf %s", label));
+  pl_section_open(d, ask, PL_BOTH_FORMAT(d->arena, "Constraint forces on %s", label));
   int shown = 0;
   for (int k = 0; k < d->g.n; k++) {
     pl_force f;
@@ -414,8 +400,7 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
     pl_lambda_value lambda;
     bool stays = lambda_over_names(d, k, &lambda);
     if (!stays && !d->g.at[k].lambda_known) {
-      pl_say(d, "The multiplier of {1} is not determined in closed form.",
-             "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1,
+      pl_say(d, PL_BOTH("The multiplier of {1} is not determined in closed form."), 1,
              pl_fn(d, d->g.at[k].source->name.text));
       d->page->section->not_found = true;
       continue;
@@ -426,12 +411,10 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
   }
   shown += together_on(d, m);
   if (shown == 0) {
-    pl_say(
-        d,
-        "No constraint of the model acts on {1} alone; what holds it follows from its coordinates.",
-        "Keine Zwangsbedingung des Modells wirkt auf {1} allein; was es hält, folgt aus seinen "
-        "Koordinaten.",
-        1, pl_fn(d, label));
+    pl_say(d,
+           PL_BOTH("No constraint of the model acts on {1} alone; what holds it follows from its "
+                   "coordinates."),
+           1, pl_fn(d, label));
   }
 }
 

@@ -177,25 +177,26 @@ static const char* title_of(pl_analysis* d, pl_language lang) {
     only = &d->g.at[k];
     n++;
   }
-  const char* de = "Lagrange-Gleichungen erster Art";
   const char* en = "Lagrange equations of the first kind";
+  const char* de = pl_german("Lagrange equations of the first kind");
   const char* sign = d->model->lambda_minus ? "-" : "";
   const char* Z = pl_letter(d, "Z");
   if (d->g.n == 0) return lang == PL_GERMAN ? de : en;
   if (n != 1)
-    return pl_format(d->arena,
-                     lang == PL_GERMAN ? "%s mit %s = %sΣ λ ∇g" : "%s, with %s = %sΣ λ ∇g",
-                     lang == PL_GERMAN ? de : en, Z, sign);
+    return pl_format(
+        d->arena,
+        lang == PL_GERMAN ? pl_german("%s, with %s = %sΣ λ ∇g") : "%s, with %s = %sΣ λ ∇g",
+        lang == PL_GERMAN ? de : en, Z, sign);
   const char* lambda = pl_symbol_get(d->pool, only->lambda)->name;
-  return pl_format(d->arena, lang == PL_GERMAN ? "%s mit %s = %s%s ∇%s" : "%s, with %s = %s%s ∇%s",
-                   lang == PL_GERMAN ? de : en, Z, sign, lambda, only->source->name.text);
+  return pl_format(
+      d->arena, lang == PL_GERMAN ? pl_german("%s, with %s = %s%s ∇%s") : "%s, with %s = %s%s ∇%s",
+      lang == PL_GERMAN ? de : en, Z, sign, lambda, only->source->name.text);
 }
 
 static void lagrange1_in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
   pl_why_frame(d, k, f);
   show_kinematics(d, k, f);
-  pl_say(d, "Newton's law with {1} along the unit vectors:",
-         "Newtons Gesetz mit {1} längs der Einheitsvektoren:", 1, pl_fl(d, "Z"));
+  pl_say(d, PL_BOTH("Newton's law with {1} along the unit vectors:"), 1, pl_fl(d, "Z"));
   for (int j = 0; j < f->n; j++) show_equation(d, f->coordinate[j], f->scale[j], false);
 }
 
@@ -237,13 +238,11 @@ static bool not_in_these_coordinates(pl_analysis* d) {
   int i = pl_loaded_by_name(d);
   if (i < 0) return false;
   pl_say(d,
-         "A force or potential acts on {1}, which only names the place of the masses. How it "
-         "divides among their coordinates is not "
-         "determined, constraint forces may be added; the equations of the second kind need no "
-         "such choice.",
-         "Auf {1} wirkt eine Kraft oder ein Potential, {1} benennt aber nur den Ort der Massen. "
-         "Wie sie sich auf deren Koordinaten verteilt, ist "
-         "bis auf Zwangskräfte offen; die Gleichungen zweiter Art brauchen diese Wahl nicht.",
+         PL_BOTH(
+             "A force or potential acts on {1}, which only names the place of the masses. How it "
+             "divides among their coordinates is not "
+             "determined, constraint forces may be added; the equations of the second kind need no "
+             "such choice."),
          1, pl_fs(d, d->q.at[i].q));
   d->page->section->not_found = true;
   return true;
@@ -253,13 +252,13 @@ static bool not_in_these_coordinates(pl_analysis* d) {
 static void say_not_along(pl_analysis* d, const pl_ask* ask) {
   const pl_form** name = PL_ARRAY(d->arena, const pl_form*, ask->frame.n + 1);
   for (int j = 0; j < ask->frame.n; j++) name[j] = pl_fs(d, ask->frame.at[j]);
-  pl_say(d,
-         "The masses do not stand in {1}: ask for the equations without \"in\", for those of the "
-         "second kind, or write the places of the "
-         "masses in {1}.",
-         "Die Massen stehen nicht in {1}: ohne „in“ fragen, nach den Gleichungen zweiter Art, oder "
-         "die Orte der Massen in {1} schreiben.",
-         1, pl_flist(d, name, ask->frame.n));
+  pl_say(
+      d,
+      PL_BOTH(
+          "The masses do not stand in {1}: ask for the equations without \"in\", for those of the "
+          "second kind, or write the places of the "
+          "masses in {1}."),
+      1, pl_flist(d, name, ask->frame.n));
   d->page->section->not_found = true;
 }
 

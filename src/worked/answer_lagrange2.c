@@ -17,14 +17,13 @@ static const pl_form* names_of_generalized(pl_analysis* d) {
 
 static bool without_reduction(pl_analysis* d) {
   if (d->reduced) return false;
-  pl_say(d,
-         "The constraints were not solved for generalized coordinates. Name them and their map, "
-         "for example: "
-         "choose φ with x = l cos φ, y = l sin φ.",
-         "Die Zwangsbedingungen wurden nicht nach verallgemeinerten Koordinaten aufgelöst. Man "
-         "nenne sie mit ihrer Abbildung, etwa: "
-         "choose φ with x = l cos φ, y = l sin φ.",
-         0);
+  pl_say(
+      d,
+      PL_BOTH(
+          "The constraints were not solved for generalized coordinates. Name them and their map, "
+          "for example: "
+          "choose φ with x = l cos φ, y = l sin φ."),
+      0);
   d->page->section->not_found = true;
   return true;
 }
@@ -43,17 +42,14 @@ static void say_what_it_solves(pl_analysis* d, pl_step* step, int i) {
     static const char* const op[] = {"=", ">=", "<=", ">", "<", "≠"};
     const char* branch = pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left),
                                    op[c->relation], pl_expr_text(d->arena, d->pool, c->right));
-    pl_step_after(step, pl_format(d->arena, "solves %s, branch %s", label, branch),
-                  pl_format(d->arena, "löst %s, Zweig %s", label, branch));
+    pl_step_after(step, PL_BOTH_FORMAT(d->arena, "solves %s, branch %s", label, branch));
     return;
   }
   if (d->q.at[i].by_branch) {  // the other solutions belong to other positions
-    pl_step_after(step, pl_format(d->arena, "solves %s, on the side of the start", label),
-                  pl_format(d->arena, "löst %s, auf der Seite des Starts", label));
+    pl_step_after(step, PL_BOTH_FORMAT(d->arena, "solves %s, on the side of the start", label));
     return;
   }
-  pl_step_after(step, pl_format(d->arena, "solves %s", label),
-                pl_format(d->arena, "löst %s", label));
+  pl_step_after(step, PL_BOTH_FORMAT(d->arena, "solves %s", label));
 }
 
 // Constraints that the map of `choose` satisfies identically.
@@ -69,9 +65,10 @@ static void say_satisfied(pl_analysis* d) {
     pl_claim_free(d, PL_CLAIM_MAP, pl_on_maps(d, l->g), pl_int(d->pool, 0));
   }
   if (n == 0) return;
-  pl_say(d, n == 1 ? "With this map {1} holds identically." : "With this map {1} hold identically.",
-         n == 1 ? "Damit ist {1} identisch erfüllt." : "Damit sind {1} identisch erfüllt.", 1,
-         pl_flist(d, f, n));
+  pl_say(d,
+         PL_BOTH(n == 1 ? "With this map {1} holds identically."
+                        : "With this map {1} hold identically."),
+         1, pl_flist(d, f, n));
 }
 
 static void show_maps(pl_analysis* d) {
@@ -138,7 +135,7 @@ static void show_lagrangian(pl_analysis* d) {
 void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
   bool mapped = d->maps.n > 0 && d->reduced;
   const pl_form* names = names_of_generalized(d);
-  pl_section_open(d, ask, "Lagrange function", "Lagrange-Funktion");
+  pl_section_open(d, ask, PL_BOTH("Lagrange function"));
   if (!d->reduced) {
     pl_expr T = pl_on_contact(d, d->T), V = pl_on_contact(d, d->V);
     show_energy(d, "T", T, d->T);
@@ -149,12 +146,11 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
     return;
   }
   if (d->gen.n == 0) {
-    pl_say(d, "Nothing is left to choose: the constraints prescribe the whole motion.",
-           "Es bleibt nichts frei: Die Zwangsbedingungen schreiben die ganze Bewegung vor.", 0);
+    pl_say(d, PL_BOTH("Nothing is left to choose: the constraints prescribe the whole motion."), 0);
   } else {
     pl_say(
-        d, d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}.",
-        d->gen.n == 1 ? "Verallgemeinerte Koordinate: {1}." : "Verallgemeinerte Koordinaten: {1}.",
+        d,
+        PL_BOTH(d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}."),
         1, names);
   }
   if (mapped) {
@@ -201,7 +197,7 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   const pl_form* mass = pl_fn(
       d, pl_format(d->arena, "%s(%s)", pl_letter(d, "M"), pl_symbol_get(d->pool, c->q)->name));
   const pl_form* M_name = pl_fl(d, "M");
-  pl_say(d, "With {1}", "Mit {1}", 1, pl_feq(d, mass, form));
+  pl_say(d, PL_BOTH("With {1}"), 1, pl_feq(d, mass, form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), M);
   const pl_form* q2 = pl_form_power(d->arena, pl_fs(d, c->v),
                                     pl_form_leaf(d->arena, pl_int(d->pool, 2)));
@@ -353,40 +349,36 @@ static void show_quadrature(pl_analysis* d, int i) {
       d->arena, pl_form_quotient(d->arena, pl_fl(d, "M"), pl_form_product(d->arena, twice, 2)));
   pl_form* integral = pl_form_make(d->arena, PL_F_INTEGRAL, 1, &root);
   integral->expr = pl_sym(d->pool, c->q);
-  pl_say(d,
-         "The energy is conserved, so the motion is one integral; no elementary closed form was "
-         "found:",
-         "Die Energie ist erhalten, die Bewegung also ein Integral; eine elementare geschlossene "
-         "Form wurde nicht gefunden:",
-         0);
+  pl_say(
+      d,
+      PL_BOTH(
+          "The energy is conserved, so the motion is one integral; no elementary closed form was "
+          "found:"),
+      0);
   const pl_form* either[1] = {integral};  // a motion to either side
   pl_show(d, pl_feq(d, pl_fn(d, "t"), pl_form_make(d->arena, PL_F_PLUSMINUS, 1, either)));
 }
 
 void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(
-      d, ask,
-      d->gen.n == 1 ? "Lagrange equation of the second kind"
-                    : "Lagrange equations of the second kind",
-      d->gen.n == 1 ? "Lagrange-Gleichung zweiter Art" : "Lagrange-Gleichungen zweiter Art");
+  pl_section_open(d, ask,
+                  PL_BOTH(d->gen.n == 1 ? "Lagrange equation of the second kind"
+                                        : "Lagrange equations of the second kind"));
   if (without_reduction(d)) return;
   pl_tell_singular(d);
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
   for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
   show_all_solved(d);
   if (d->gen.n == 0) {
-    pl_say(d, "Nothing is left to choose: the constraints prescribe the whole motion.",
-           "Es bleibt nichts frei: Die Zwangsbedingungen schreiben die ganze Bewegung vor.", 0);
+    pl_say(d, PL_BOTH("Nothing is left to choose: the constraints prescribe the whole motion."), 0);
   } else if (!d->solved && !pl_has_role(d->pool, d->Lg, PL_R_VELOCITY)) {
-    pl_say(d, "No mass moves: this is the condition of balance, the principle of virtual work.",
-           "Keine Masse bewegt sich: Das ist die Gleichgewichtsbedingung, das Prinzip der "
-           "virtuellen Arbeit.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH("No mass moves: this is the condition of balance, the principle of virtual work."),
+        0);
   } else if (!d->solved && !pl_structure_of_accelerations(d)) {
     pl_say(d,
-           "The accelerations are not determined by these equations: the mass matrix is singular.",
-           "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist "
-           "singulär.",
+           PL_BOTH("The accelerations are not determined by these equations: the mass matrix is "
+                   "singular."),
            0);
     d->page->section->not_found = true;
   }
@@ -408,7 +400,7 @@ static pl_symbol momentum_symbol(pl_analysis* d, int i) {
 enum { most_momenta = 4 };  // up to which H(q, p) is written out in full
 
 void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Hamilton function", "Hamilton-Funktion");
+  pl_section_open(d, ask, PL_BOTH("Hamilton function"));
   if (without_reduction(d)) return;
   int n = d->gen.n;
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, n * n + 1);
@@ -427,17 +419,13 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
                                          : pl_alg_solve(d->tower, n, A, b, v, 50000);
   if (solved != PL_YES) {
     bool singular = solved == PL_NO;
-    pl_say(
-        d,
-        singular
-            ? "The momenta cannot be solved for the velocities: the Lagrange function is singular."
-            : "H(q, p) takes the inverse of the mass matrix, which is too long to be written out "
-              "here; the momenta are given.",
-        singular ? "Die Impulse sind nicht nach den Geschwindigkeiten auflösbar: die "
-                   "Lagrange-Funktion ist singulär."
-                 : "H(q, p) braucht das Inverse der Massenmatrix, das hier zu lang zum "
-                   "Ausschreiben ist; die Impulse sind angegeben.",
-        0);
+    pl_say(d,
+           PL_BOTH(singular ? "The momenta cannot be solved for the velocities: the Lagrange "
+                              "function is singular."
+                            : "H(q, p) takes the inverse of the mass matrix, which is too long to "
+                              "be written out "
+                              "here; the momenta are given."),
+           0);
     d->page->section->not_found = true;
     return;
   }

@@ -22,12 +22,12 @@ static pl_expr subject(pl_analysis* d, const pl_ask* ask, pl_expr e) {
 // A limit that still contains what it is the limit of says nothing.
 static bool says_nothing(pl_analysis* d, pl_expr name, pl_expr value) {
   if (!pl_has_coordinates(d, name) || !pl_is_circular(d, name, value)) return false;
-  pl_say(d,
-         "{1} belongs to the state, and no closed form of its motion was found: there is nothing "
-         "to take a limit of.",
-         "{1} gehört zum Zustand, und eine geschlossene Form der Bewegung wurde nicht gefunden: Es "
-         "gibt nichts, wovon ein Grenzwert zu nehmen wäre.",
-         1, pl_fe(d, name));
+  pl_say(
+      d,
+      PL_BOTH(
+          "{1} belongs to the state, and no closed form of its motion was found: there is nothing "
+          "to take a limit of."),
+      1, pl_fe(d, name));
   d->page->section->not_found = true;
   return true;
 }
@@ -69,14 +69,13 @@ static void show_limit(pl_analysis* d, const pl_form* condition, pl_expr subject
   pl_step* row = show_case(d, condition,
                            pl_frel(d, name_of(d, subject_name), equality ? "=" : "->", rhs));
   if (is_acceleration(d, subject_name) && pl_is_zero_node(d->pool, value)) {
-    pl_step_after(row, "equilibrium, or uniform motion",
-                  "Gleichgewicht oder gleichförmige Bewegung");
+    pl_step_after(row, PL_BOTH("equilibrium, or uniform motion"));
   }
   pl_answer(d, machine_name(d, subject_name), value, rhs);
 }
 
 static void not_found(pl_analysis* d, const pl_form* condition) {
-  pl_say(d, "{1}: no limit was found.", "{1}: kein Grenzwert gefunden.", 1, condition);
+  pl_say(d, PL_BOTH("{1}: no limit was found."), 1, condition);
   d->page->section->not_found = true;
 }
 
@@ -212,7 +211,7 @@ static int subjects(pl_analysis* d, const pl_ask* ask, pl_expr* name, pl_expr* e
 }
 
 void pl_answer_limit(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Limits", "Grenzfälle");
+  pl_section_open(d, ask, PL_BOTH("Limits"));
   pl_expr name[16], e[16];
   int n = subjects(d, ask, name, e, 16);
   for (int k = 0; k < n; k++) {
@@ -276,7 +275,7 @@ static void explain(pl_analysis* d, const pl_ask* ask, pl_expr e, const series* 
   pl_symbol u = pl_symbol_make(d->pool, &info);
   pl_expr inserted = pl_subst1(d->pool, e, ask->variable,
                                pl_div(d->pool, pl_int(d->pool, 1), pl_sym(d->pool, u)));
-  pl_say(d, "With {1}:", "Mit {1}:", 1, pl_feq(d, pl_fs(d, u), pl_fe(d, s->x)))->detail = true;
+  pl_say(d, PL_BOTH("With {1}:"), 1, pl_feq(d, pl_fs(d, u), pl_fe(d, s->x)))->detail = true;
   pl_why_series(d, pl_alg_normal(d->tower, inserted), u, pl_int(d->pool, 0), s->lead, s->c, s->n);
 }
 
@@ -305,7 +304,7 @@ static void show_series(pl_analysis* d, const pl_ask* ask, pl_expr name, pl_expr
 }
 
 void pl_answer_series(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Limits", "Grenzfälle");
+  pl_section_open(d, ask, PL_BOTH("Limits"));
   pl_expr name[16], e[16];
   int n = subjects(d, ask, name, e, 16);
   for (int k = 0; k < n; k++) {

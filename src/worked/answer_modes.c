@@ -54,17 +54,16 @@ static void say_growth(pl_analysis* d, const pl_linearised* l, pl_expr w2, const
   double x = pl_number(d, w2);
   bool negative = pl_alg_sign_proven(d->tower, w2, false, &sign) == PL_YES ? sign < 0 : x < 0;
   if (negative && l->gyroscopic) {
-    pl_say(d, "unstable: the deviation grows", "instabil: die Abweichung wächst", 0);
+    pl_say(d, PL_BOTH("unstable: the deviation grows"), 0);
   } else if (negative) {
-    pl_say(d, "unstable: no oscillation, the deviation grows as e^(σ t) with {1}",
-           "instabil: keine Schwingung, die Abweichung wächst wie e^(σ t) mit {1}", 1,
+    pl_say(d, PL_BOTH("unstable: no oscillation, the deviation grows as e^(σ t) with {1}"), 1,
            pl_feq(d, pl_fn(d, "σ²"),
                   pl_f(d, pl_alg_normal(d->tower, pl_neg(d->pool, w2)), PL_S_QUOTIENT)));
   } else if (sign == 0 && isnan(x) && pl_condition_form(d, w2, true, &form, &text) == PL_UNKNOWN) {
     bool always = r->n_conditions == 0;
-    pl_say(d, always ? "an oscillation if {1}, else the deviation grows" : "an oscillation if {1}",
-           always ? "eine Schwingung, wenn {1}, sonst wächst die Abweichung"
-                  : "eine Schwingung, wenn {1}",
+    pl_say(d,
+           PL_BOTH(always ? "an oscillation if {1}, else the deviation grows"
+                          : "an oscillation if {1}"),
            1, form);
   }
 }
@@ -101,7 +100,7 @@ static void show_mode(pl_analysis* d, const pl_linearised* l, const pl_rest* r, 
     if (l->n > 1) {
       const pl_form* names[pl_max_gen];
       for (int j = 0; j < l->n; j++) names[j] = pl_fs(d, d->q.at[d->gen.at[j]].q);
-      pl_say(d, "amplitudes {1} as {2}", "Amplituden {1} wie {2}", 2, pl_flist(d, names, l->n),
+      pl_say(d, PL_BOTH("amplitudes {1} as {2}"), 2, pl_flist(d, names, l->n),
              pl_flist(d, ratio, l->n));
     }
   }
@@ -120,25 +119,24 @@ static void show_damped(pl_analysis* d, const pl_linearised* l, const char* at) 
                                  pl_sub(p, pl_div(p, l->K[0], l->M[0]), pl_square(p, gamma)));
   int sign = pl_sign_at_numbers(d, square);
   const pl_form* form = pl_f(d, gamma, PL_S_QUOTIENT);
-  pl_step_after(pl_show_numbered(d, pl_feq(d, pl_fn(d, "γ"), form)), "decay", "Abklingen");
+  pl_step_after(pl_show_numbered(d, pl_feq(d, pl_fn(d, "γ"), form)), PL_BOTH("decay"));
   pl_answer(d, "gamma", gamma, form)->at = at;
   if (sign < 0) {
-    pl_say(d, "Overdamped: no oscillation.", "Überdämpft: keine Schwingung.", 0);
+    pl_say(d, PL_BOTH("Overdamped: no oscillation."), 0);
     return;
   }
   if (sign == 0 && (pl_vanishes_at_numbers(d, square) || pl_vanishes(d, square))) {
-    pl_say(d, "Critically damped: no oscillation.", "Aperiodischer Grenzfall: keine Schwingung.",
-           0);
+    pl_say(d, PL_BOTH("Critically damped: no oscillation."), 0);
     return;
   }
   pl_expr root = pl_alg_normal(d->tower, pl_sqrt(p, square));
   form = pl_f(d, root, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fn(d, "ω_d"), form));
-  pl_step_after(step, "damped oscillation", "gedämpfte Schwingung");
+  pl_step_after(step, PL_BOTH("damped oscillation"));
   pl_answer(d, "omega_d", root, form)->at = at;
   const char* text;
   if (sign == 0 && pl_condition_form(d, square, true, &form, &text) == PL_UNKNOWN) {
-    pl_say(d, "an oscillation if {1}", "eine Schwingung, wenn {1}", 1, form);
+    pl_say(d, PL_BOTH("an oscillation if {1}"), 1, form);
   }
 }
 
@@ -172,7 +170,7 @@ static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int n
   while (!r->numeric && specialise(d, &l)) special = true;
   if (special) pl_say_special(d);
   const char* at = pl_format(d->arena, "equilibrium %d", number);
-  pl_say(d, "At {1}:", "Bei {1}:", 1, pl_rest_form(d, r));
+  pl_say(d, PL_BOTH("At {1}:"), 1, pl_rest_form(d, r));
   pl_say_velocity_terms(d, &l);
   pl_root root[pl_max_gen];
   bool complete;
@@ -181,13 +179,10 @@ static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int n
   for (int k = 0; k < n; k++) show_mode(d, &l, r, root[k].value, k + 1, at);
   show_damped(d, &l, at);
   if (n < l.n && complete && !l.gyroscopic && !l.circulatory) {
-    pl_say(d, "A frequency is repeated: all combinations of its modes are modes.",
-           "Eine Frequenz ist mehrfach: alle Kombinationen ihrer Eigenschwingungen sind "
-           "Eigenschwingungen.",
-           0);
+    pl_say(d, PL_BOTH("A frequency is repeated: all combinations of its modes are modes."), 0);
   } else if (n < l.n) {
-    pl_say(d, "Not every root of the characteristic equation was found in closed form.",
-           "Nicht jede Wurzel der charakteristischen Gleichung war geschlossen zu finden.", 0);
+    pl_say(d, PL_BOTH("Not every root of the characteristic equation was found in closed form."),
+           0);
     d->page->section->not_found = n == 0;
   }
 }
@@ -244,11 +239,9 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
   pl_rest r;
   if (ask->frame.n != 1 || !cyclic || !position_of(d, ask, held, &r) || !steady_rate(d, &r, held)) {
     pl_say(d,
-           "A steady motion needs one cyclic coordinate after `holding`, values for all others "
-           "after `at`, and a rate that keeps them.",
-           "Eine stationäre Bewegung braucht eine zyklische Koordinate nach `holding`, Werte aller "
-           "anderen nach `at` und eine Drehzahl, die sie "
-           "hält.",
+           PL_BOTH(
+               "A steady motion needs one cyclic coordinate after `holding`, values for all others "
+               "after `at`, and a rate that keeps them."),
            0);
     d->page->section->not_found = true;
     return;
@@ -258,8 +251,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
                                          pl_form_leaf(d->arena, pl_int(d->pool, 2)));
   pl_expr rate2 = pl_alg_normal(d->tower, pl_square(d->pool, rate));
   const pl_form* form = pl_f(d, rate2, PL_S_QUOTIENT);
-  pl_say(d, "At {1} the motion is steady for", "Bei {1} ist die Bewegung stationär für", 1,
-         pl_rest_form(d, &r));
+  pl_say(d, PL_BOTH("At {1} the motion is steady for"), 1, pl_rest_form(d, &r));
   pl_show_numbered(d, pl_feq(d, squared, form));
   pl_value* v = pl_answer(
       d, pl_format(d->arena, "%s^2", pl_symbol_get(d->pool, d->q.at[held].v)->ascii), rate2, form);
@@ -276,8 +268,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
       show_mode(d, &l, &r, root[k].value, ++shown, "steady motion");
   }
   if (shown == 0) {
-    pl_say(d, "The characteristic equation was not solved in closed form.",
-           "Die charakteristische Gleichung war nicht geschlossen lösbar.", 0);
+    pl_say(d, PL_BOTH("The characteristic equation was not solved in closed form."), 0);
     d->page->section->not_found = true;
   }
   d->steady.n = 0;
@@ -306,8 +297,7 @@ static void modes_at_rest(pl_analysis* d, const pl_ask* ask, pl_expr* f) {
     shown++;
   }
   if (shown == 0 && found->complete) {
-    pl_say(d, "There is no position of rest to oscillate about.",
-           "Es gibt keine Ruhelage, um die etwas schwingen könnte.", 0);
+    pl_say(d, PL_BOTH("There is no position of rest to oscillate about."), 0);
   }
   if (!found->complete) pl_say_rests_missing(d, f, found);
   d->page->section->not_found = shown == 0;
@@ -319,18 +309,17 @@ static bool without_drive(pl_analysis* d, pl_expr* f) {
   const pl_form* term[pl_max_gen];
   for (int k = 0; k < drive.n; k++) term[k] = pl_f(d, drive.force[k], PL_S_PLAIN);
   if (drive.n > 0)
-    pl_say(d, "Without the drive: {1} is set to 0.", "Ohne den Antrieb: {1} wird 0 gesetzt.", 1,
-           pl_flist(d, term, drive.n));
+    pl_say(d, PL_BOTH("Without the drive: {1} is set to 0."), 1, pl_flist(d, term, drive.n));
   if (drive.amplitude.id) {
     const pl_form* none = pl_feq(d, pl_fs(d, drive.amplitude),
                                  pl_form_leaf(d->arena, pl_int(d->pool, 0)));
-    pl_say(d, "Without the drive: {1}.", "Ohne den Antrieb: {1}.", 1, none);
+    pl_say(d, PL_BOTH("Without the drive: {1}."), 1, none);
   }
   return true;
 }
 
 void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Modes", "Eigenschwingungen");
+  pl_section_open(d, ask, PL_BOTH("Modes"));
   pl_expr f[pl_max_gen];
   if (pl_rests_out_of_reach(d)) return;
   if (ask->frame.n > 0) {
@@ -342,12 +331,12 @@ void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
   if (without_drive(d, f)) {
     modes_at_rest(d, ask, f);
   } else {
-    pl_say(d,
-           "The equations contain t in a way that is no drive to be left out: there are no modes "
-           "of constant frequency.",
-           "Die Gleichungen enthalten t nicht nur in einem Antrieb, den man weglassen könnte: es "
-           "gibt keine Eigenschwingungen fester Frequenz.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH(
+            "The equations contain t in a way that is no drive to be left out: there are no modes "
+            "of constant frequency."),
+        0);
     d->page->section->not_found = true;
   }
   d->steady.n = 0;

@@ -23,24 +23,23 @@ static bool name_is_taken(pl_analysis* d, const char* name) {
 }
 
 static void say_shift(pl_analysis* d, const pl_momentum* m) {
-  pl_say(d,
-         "conserved: nothing changes when all masses are shifted along {1}, and no force without "
-         "potential works along it.",
-         "erhalten: nichts ändert sich, wenn alle Massen längs {1} verschoben werden, und keine "
-         "Kraft ohne Potential arbeitet längs dieser "
-         "Richtung.",
-         1, pl_fn(d, d->model->axes[m->axis].name));
+  pl_say(
+      d,
+      PL_BOTH(
+          "conserved: nothing changes when all masses are shifted along {1}, and no force without "
+          "potential works along it."),
+      1, pl_fn(d, d->model->axes[m->axis].name));
 }
 
 static void say_turn(pl_analysis* d, const pl_momentum* m) {
   const pl_form* axis = pl_fn(d, m->axis < d->model->n_axes ? d->model->axes[m->axis].name : "z");
   if (pl_is_zero_node(d->pool, m->centre[0]) && pl_is_zero_node(d->pool, m->centre[1])) {
-    pl_say(d,
-           "conserved: nothing changes when the whole system is turned about the {1} axis, and no "
-           "force without potential works along it.",
-           "erhalten: nichts ändert sich, wenn das ganze System um die {1}-Achse gedreht wird, und "
-           "keine Kraft ohne Potential arbeitet dabei.",
-           1, axis);
+    pl_say(
+        d,
+        PL_BOTH(
+            "conserved: nothing changes when the whole system is turned about the {1} axis, and no "
+            "force without potential works along it."),
+        1, axis);
     return;
   }
   const pl_form* place[2];
@@ -48,14 +47,13 @@ static void say_turn(pl_analysis* d, const pl_momentum* m) {
     const char* along = d->model->axes[(m->axis + 1 + k) % 3].name;
     place[k] = pl_feq(d, pl_fn(d, along), pl_f(d, m->centre[k], PL_S_PLAIN));
   }
-  pl_say(d,
-         "conserved: nothing changes when the whole system is turned about the line along {1} at "
-         "{2}, and no force without potential works "
-         "along it.",
-         "erhalten: nichts ändert sich, wenn das ganze System um die Gerade längs {1} bei {2} "
-         "gedreht wird, und keine Kraft ohne Potential "
-         "arbeitet dabei.",
-         2, axis, pl_flist(d, place, 2));
+  pl_say(
+      d,
+      PL_BOTH(
+          "conserved: nothing changes when the whole system is turned about the line along {1} at "
+          "{2}, and no force without potential works "
+          "along it."),
+      2, axis, pl_flist(d, place, 2));
 }
 
 static void answer_momentum(pl_analysis* d, const pl_momentum* m) {
@@ -70,7 +68,7 @@ static void answer_momentum(pl_analysis* d, const pl_momentum* m) {
   pl_value* v = pl_answer(d, name, m->value, form);
   v->conserved = 1;
   v->because[0] = "symmetry of the whole system (Noether)";
-  v->because[1] = "Symmetrie des ganzen Systems (Noether)";
+  v->because[1] = pl_german("symmetry of the whole system (Noether)");
   pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), m->rate);
 }
 

@@ -30,22 +30,20 @@ static void say_open(pl_analysis* d, const pl_open* o) {
   const pl_form *label = pl_fn(d, o->source->name.text),
                 *none = pl_feq(d, pl_fs(d, o->source->lambda), zero_form(d));
   if (pl_would_pull(d, o)) {
-    pl_say(d, "At this start the force of {1} would have to pull: it lets go at once, and {2}.",
-           "Bei diesem Start müsste die Kraft von {1} ziehen: die Bedingung löst sich sofort, und "
-           "{2}.",
-           2, label, none);
+    pl_say(
+        d,
+        PL_BOTH("At this start the force of {1} would have to pull: it lets go at once, and {2}."),
+        2, label, none);
   } else if (o->contact && !o->released) {
-    pl_say(d, "{1} is open here, {2}: it exerts no force, {3}.",
-           "{1} ist hier offen, {2}: es wirkt keine Kraft, {3}.", 3, label,
+    pl_say(d, PL_BOTH("{1} is open here, {2}: it exerts no force, {3}."), 3, label,
            pl_form_apart(d, o->source), none);
   } else {
-    pl_say(d, "{1} does not hold here: it exerts no force, {2}.",
-           "{1} gilt hier nicht: es wirkt keine Kraft, {2}.", 2, label, none);
+    pl_say(d, PL_BOTH("{1} does not hold here: it exerts no force, {2}."), 2, label, none);
   }
 }
 
 static const char* german_force(pl_analysis* d, const pl_open* o) {
-  return pl_format(d->arena, "Zwangskraft von %s", o->source->name.text);
+  return pl_format(d->arena, pl_german("Constraint force of %s"), o->source->name.text);
 }
 
 // A name that only a map explains, whose constraint does not hold.
@@ -87,10 +85,11 @@ bool pl_answer_open(pl_analysis* d, const pl_ask* ask) {
   pl_symbol s;
   if (!pl_speaks_of_unnamed(d, ask, &s)) return false;
   pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "{1} names the place only while the constraints of its map hold, and here they do not.",
-         "{1} benennt den Ort nur, solange die Zwangsbedingungen der Abbildung gelten, und hier "
-         "gelten sie nicht.",
-         1, pl_fs(d, s));
+  pl_say(
+      d,
+      PL_BOTH(
+          "{1} names the place only while the constraints of its map hold, and here they do not."),
+      1, pl_fs(d, s));
   d->page->section->not_found = true;
   return true;
 }

@@ -13,7 +13,7 @@ static void show_mapped(pl_analysis* d, pl_symbol name, pl_expr e) {
 void pl_answer_positions(pl_analysis* d) {
   if (!d->reduced || (d->maps.n == 0 && d->loops.n == 0)) return;
   pl_ask ask = {.text = "positions"};
-  pl_section_open(d, &ask, "Positions and velocities", "Lagen und Geschwindigkeiten");
+  pl_section_open(d, &ask, PL_BOTH("Positions and velocities"));
   pl_tell_loops(d);
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];

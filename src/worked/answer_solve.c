@@ -53,7 +53,7 @@ static bool insert_rows(pl_analysis* d, pl_expr e, pl_expr* out) {
 // "(1)", "(1) and (2)", "(1), (2) and (4)"
 static const pl_form* refs_form(pl_analysis* d, const int* number, int n) {
   pl_text words[2] = {pl_text_make(d->arena), pl_text_make(d->arena)};
-  static const char* const last[2] = {" and ", " und "};
+  const char* const last[2] = {PL_BOTH(" and ")};
   for (int i = 0; i < n; i++) {
     for (int lang = 0; lang < 2; lang++) {
       pl_text_addf(&words[lang], "%s(%d)", i == 0 ? "" : i == n - 1 ? last[lang] : ", ", number[i]);
@@ -101,10 +101,8 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   pl_expr gdd = pl_on_fixed(d, pl_bond_acceleration(d, k));
-  pl_say(
-      d, l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:",
-      l->velocity ? "Zeitableitung von {1}:" : "Zweimalige Zeitableitung der Zwangsbedingung {1}:",
-      1, pl_fn(d, l->source->name.text));
+  pl_say(d, PL_BOTH(l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:"),
+         1, pl_fn(d, l->source->name.text));
   pl_why_differentiated(d, k);
   if (l->contact && l->fixes >= 0) {
     const pl_variable* c = &d->q.at[l->fixes];
@@ -122,7 +120,7 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   if (d->page->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted))
     return;
   if (pl_op_count(d->pool, inserted) > 60) return;
-  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_of_accelerations(d, gdd),
+  pl_say(d, PL_BOTH("{1} inserted into {2}:"), 2, refs_of_accelerations(d, gdd),
          pl_fref(d, d->page->number_gdd));
   pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
@@ -150,7 +148,7 @@ static void show_row(pl_analysis* d, int k) {
   if (pl_is_poison(row)) return;
   const pl_form* form = pl_positive_first(d, pl_f(d, row, PL_S_QUOTIENT));
   if (pl_form_ops(form) > longest_lambda) return;
-  pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
+  pl_say(d, PL_BOTH("From the equation of {1}:"), 1, pl_fs(d, d->q.at[i].q));
   d->page->lambda_number[k] = d->page->number_lambda =
       pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form),
@@ -167,8 +165,8 @@ static void show_lambda(pl_analysis* d, int k) {
     return;
   }
   if (!solved) {
-    pl_say(d, "{1} is not determined by the equations in closed form.",
-           "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1, pl_fs(d, l->lambda));
+    pl_say(d, PL_BOTH("{1} is not determined by the equations in closed form."), 1,
+           pl_fs(d, l->lambda));
     d->page->section->not_found = true;
     return;
   }
@@ -182,18 +180,14 @@ static void show_lambda(pl_analysis* d, int k) {
   }
   if (pl_form_ops(form) > longest_lambda) {
     show_row(d, k);
-    pl_say(d,
-           pl_format(d->arena,
-                     "The linear equations for the multipliers and accelerations are solved; {1} "
-                     "takes %ld operations to write "
-                     "and stands in the JSON answer.",
-                     pl_form_ops(form)),
-           pl_format(d->arena,
-                     "Die linearen Gleichungen für Multiplikatoren und Beschleunigungen sind "
-                     "gelöst; {1} hat ausgeschrieben %ld "
-                     "Rechenzeichen und steht in der JSON-Antwort.",
-                     pl_form_ops(form)),
-           1, pl_fs(d, l->lambda));
+    pl_say(
+        d,
+        PL_BOTH_FORMAT(d->arena,
+                       "The linear equations for the multipliers and accelerations are solved; {1} "
+                       "takes %ld operations to write "
+                       "and stands in the JSON answer.",
+                       pl_form_ops(form)),
+        1, pl_fs(d, l->lambda));
   } else {
     pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
     d->page->lambda_number[k] = d->page->number_lambda = step->number;
@@ -216,9 +210,10 @@ static void solve_lambda(pl_analysis* d, int k) {
   if (d->g.at[k].fixes < 0 || d->g.at[k].contact) {
     show_twice_differentiated(d, k);
   } else {
-    pl_say(d, "{1} was dropped; its multiplier is what the equation of its coordinate leaves:",
-           "{1} ist entfallen; der Multiplikator ist der Rest der Gleichung ihrer Koordinate:", 1,
-           pl_fn(d, d->g.at[k].source->name.text));
+    pl_say(
+        d,
+        PL_BOTH("{1} was dropped; its multiplier is what the equation of its coordinate leaves:"),
+        1, pl_fn(d, d->g.at[k].source->name.text));
   }
   show_lambda(d, k);
 }
@@ -237,7 +232,7 @@ static void show_acceleration(pl_analysis* d, int i) {
 
 static bool no_acceleration(pl_analysis* d, int i) {
   if (d->solved && i >= 0 && !pl_is_poison(d->acceleration[i])) return false;
-  pl_say(d, "No closed form was found for it.", "Dafür wurde keine geschlossene Form gefunden.", 0);
+  pl_say(d, PL_BOTH("No closed form was found for it."), 0);
   d->page->section->not_found = true;
   return true;
 }
@@ -261,7 +256,7 @@ static void say_inserted(pl_analysis* d, int i) {
     if (stands && d->page->lambda_number[k] > 0) number[n++] = d->page->lambda_number[k];
   }
   if (n == 0 || row >= d->page->lagrange1_numbers.n) return;
-  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2,
+  pl_say(d, PL_BOTH("{1} inserted into {2}:"), 2,
          n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n),
          pl_fref(d, d->page->lagrange1_numbers.at[row]));
 }
@@ -372,9 +367,8 @@ static bool solve_escape(pl_analysis* d, int i) {
   if (pl_is_poison(x)) return false;
   const pl_form* form = pl_f(d, x, PL_S_PLAIN);
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
-  pl_say(d, "The motion is not unique: rest is one, and for every {1} so is, from {2} on,",
-         "Die Bewegung ist nicht eindeutig: Ruhe ist eine, und für jedes {1} auch, ab {2},", 2,
-         pl_frel(d, pl_fs(d, wait), "≥", zero),
+  pl_say(d, PL_BOTH("The motion is not unique: rest is one, and for every {1} so is, from {2} on,"),
+         2, pl_frel(d, pl_fs(d, wait), "≥", zero),
          pl_feq(d, pl_fs(d, pl_time(d->pool)), pl_fs(d, wait)));
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   pl_symbol t = pl_time(d->pool);
@@ -402,20 +396,18 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   pl_expr x = pl_closed_motion(d, i, &poles);
   if (pl_is_poison(x) && solve_escape(d, i)) return x;
   if (pl_is_poison(x)) {
-    pl_say(d, "No elementary closed form of the motion was found.",
-           "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
+    pl_say(d, PL_BOTH("No elementary closed form of the motion was found."), 0);
     d->page->section->not_found = true;
     return x;
   }
   bool uniform_motion = !pl_has_coordinates(d, d->acceleration[i]);
   bool alone = d->gen.n == 1;
   pl_say(d,
-         uniform_motion ? "Integrated twice:"
-         : !alone ? "Linear equations with constant coefficients; their solution through the start:"
-                  : "A linear equation with constant coefficients; its solution through the start:",
-         uniform_motion ? "Zweimal integriert:"
-         : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:"
-                  : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:",
+         PL_BOTH(
+             uniform_motion ? "Integrated twice:"
+             : !alone
+                 ? "Linear equations with constant coefficients; their solution through the start:"
+                 : "A linear equation with constant coefficients; its solution through the start:"),
          0);
   pl_say_special(d);
   why_integrated(d, i, x);
@@ -445,7 +437,7 @@ static void solve_by_map(pl_analysis* d, int i) {
 static void show_fixed(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   const pl_form* form = pl_f(d, c->fixed, PL_S_SOLUTION);
-  pl_say(d, "{1} gives", "Aus {1} folgt", 1, pl_fn(d, d->g.at[c->fixed_by].source->name.text));
+  pl_say(d, PL_BOTH("{1} gives"), 1, pl_fn(d, d->g.at[c->fixed_by].source->name.text));
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   pl_claim_that(d, PL_CLAIM_MAP, pl_form_value(d->pool, form), pl_sym(d->pool, c->q));
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, c->fixed, form);
@@ -456,7 +448,7 @@ static bool prescribed_motion(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   pl_expr x = d->reduced && pl_follower(d, i) < 0 ? c->map : pl_poison();
   if (pl_is_poison(x) || pl_has_coordinates(d, x)) return false;
-  pl_say(d, "The constraints prescribe it:", "Die Zwangsbedingungen schreiben sie vor:", 0);
+  pl_say(d, PL_BOTH("The constraints prescribe it:"), 0);
   const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   pl_claim_that(d, PL_CLAIM_MAP, pl_form_value(d->pool, form), pl_sym(d->pool, c->q));
@@ -495,8 +487,7 @@ static void multiplier_of_time(pl_analysis* d, int k) {
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, t)};
   }
   if (pl_is_poison(e)) {
-    pl_say(d, "No elementary closed form of the motion was found.",
-           "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
+    pl_say(d, PL_BOTH("No elementary closed form of the motion was found."), 0);
     d->page->section->not_found = true;
     return;
   }
@@ -517,16 +508,17 @@ void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
                                                              : (pl_symbol){0};
   int k = link_of_lambda(d, s), i = pl_variable_index(d, s);
   if (k >= 0 && ask->of_time) {
-    pl_section_open(d, ask, "Multiplier", "Multiplikator");
+    pl_section_open(d, ask, PL_BOTH("Multiplier"));
     multiplier_of_time(d, k);
   } else if (k >= 0) {
-    pl_section_open(d, ask, goes_on ? NULL : "Multiplier", goes_on ? NULL : "Multiplikator");
+    pl_section_open(d, ask, goes_on ? NULL : "Multiplier",
+                    goes_on ? NULL : pl_german("Multiplier"));
     solve_lambda(d, k);
   } else if (i >= 0 && ask->of_time) {
-    pl_section_open(d, ask, "Motion", "Bewegung");
+    pl_section_open(d, ask, PL_BOTH("Motion"));
     solve_motion(d, i);
   } else if (i >= 0 && d->q.at[i].a.id == s.id) {
-    pl_section_open(d, ask, "Acceleration", "Beschleunigung");
+    pl_section_open(d, ask, PL_BOTH("Acceleration"));
     if (long_acceleration(d, i)) return;
     if (no_acceleration(d, i)) return;
     say_inserted(d, i);
@@ -534,7 +526,7 @@ void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
     pl_answer(d, pl_symbol_get(d->pool, s)->ascii, d->acceleration[i],
               pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
   } else if (i >= 0) {
-    pl_section_open(d, ask, "Motion", "Bewegung");
+    pl_section_open(d, ask, PL_BOTH("Motion"));
     solve_motion(d, i);
   } else {
     pl_answer_pending(d, ask);

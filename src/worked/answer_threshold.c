@@ -47,12 +47,11 @@ static void show_threshold(pl_analysis* d, pl_thresholds* found, pl_expr e, cons
   pl_step_value(d, step, value, pl_dimension_of_expr(d, value, &known));
   pl_value* v = pl_answer(d, pl_symbol_get(d->pool, found->x)->ascii, value, form);
   pl_tell_place(d, r, v);
-  pl_say(d, "where the stability of {1} changes", "dort ändert sich die Stabilität von {1}", 1,
-         pl_rest_form(d, r));
+  pl_say(d, PL_BOTH("where the stability of {1} changes"), 1, pl_rest_form(d, r));
   if (!pl_is_poison(root->condition)
       && pl_condition_form(d, root->condition, false, &real, &text) == PL_UNKNOWN) {
     v->exists_if = text;
-    pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, real);
+    pl_say(d, PL_BOTH("exists if {1}"), 1, real);
   }
   pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, e, found->x, value), pl_int(d->pool, 0));
 }
@@ -93,7 +92,7 @@ static void thresholds_of(pl_analysis* d, const pl_expr* f, const pl_rest* r,
 }
 
 void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Threshold", "Schwelle");
+  pl_section_open(d, ask, PL_BOTH("Threshold"));
   pl_expr f[pl_max_gen];
   if (!ask->label || strcmp(ask->label, "stable") != 0 || !ask->variable.id) {
     pl_answer_pending(d, ask);
@@ -128,13 +127,11 @@ void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
   if (found.n > 0) return;
   if (found.complete) {
     pl_say(d,
-           is_rest == PL_YES ? "This position does not change its stability with {1}."
-                             : "No position of rest changes its stability with {1}.",
-           is_rest == PL_YES ? "Diese Lage ändert mit {1} ihre Stabilität nicht."
-                             : "Keine Ruhelage ändert mit {1} ihre Stabilität.",
+           PL_BOTH(is_rest == PL_YES ? "This position does not change its stability with {1}."
+                                     : "No position of rest changes its stability with {1}."),
            1, pl_fs(d, found.x));
     return;
   }
-  pl_say(d, "None was found in closed form.", "Geschlossen wurde keine gefunden.", 0);
+  pl_say(d, PL_BOTH("None was found in closed form."), 0);
   d->page->section->not_found = true;
 }

@@ -18,16 +18,14 @@ bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e) {
   if (!unsolved(d, e)) return false;
   if (pl_not_determined(d, e)) {
     pl_say(d,
-           "{1} is not determined: constraints depend on each other, and only sums of their forces "
-           "follow from the motion.",
-           "{1} ist nicht bestimmt: Zwangsbedingungen hängen voneinander ab, und nur Summen ihrer "
-           "Kräfte folgen aus der Bewegung.",
+           PL_BOTH("{1} is not determined: constraints depend on each other, and only sums of "
+                   "their forces "
+                   "follow from the motion."),
            1, pl_fe(d, asked));
     return true;
   }
-  pl_say(d, "{1} hangs on accelerations or multipliers for which no closed form was found.",
-         "{1} hängt an Beschleunigungen oder Multiplikatoren, für die keine geschlossene Form "
-         "gefunden wurde.",
+  pl_say(d,
+         PL_BOTH("{1} hangs on accelerations or multipliers for which no closed form was found."),
          1, pl_fe(d, asked));
   d->page->section->not_found = true;
   return true;
@@ -38,12 +36,11 @@ bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e) {
 static bool stays_open(pl_analysis* d, pl_expr asked, pl_expr e) {
   if (pl_say_unsolved(d, asked, e)) return true;
   if (pl_same(asked, e) && pl_kind_of(d->pool, e) == PL_SYMBOL && pl_has_coordinates(d, e)) {
-    pl_say(d,
-           "{1} belongs to the state; the constraints give no closed form for it. Its motion: "
-           "\"solve {1}(t)\" for a coordinate.",
-           "{1} gehört zum Zustand; die Zwangsbedingungen geben keine geschlossene Form. Die "
-           "Bewegung einer Koordinate: „solve {1}(t)“.",
-           1, pl_fe(d, asked));
+    pl_say(
+        d,
+        PL_BOTH("{1} belongs to the state; the constraints give no closed form for it. Its motion: "
+                "\"solve {1}(t)\" for a coordinate."),
+        1, pl_fe(d, asked));
   } else {
     return false;
   }
@@ -93,11 +90,12 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
 static const char* german_title(pl_analysis* d, const char* request) {
   size_t length = strlen(request), rest = strlen(" at rest");
   bool at_rest = length > rest && strcmp(request + length - rest, " at rest") == 0;
-  const char* const word[][2] = {{" where ", " für "},
-                                 {" from rest", ", Start aus der Ruhe"},
-                                 {" at rest", ""},
-                                 {" from ", at_rest ? ", Start aus der Ruhe bei " : ", Start bei "},
-                                 {" and ", " und "}};
+  const char* const word[][2] = {
+      {PL_BOTH(" where ")},
+      {PL_BOTH(" from rest")},
+      {" at rest", ""},
+      {" from ", at_rest ? pl_german(" at rest from ") : pl_german(" from ")},
+      {PL_BOTH(" and ")}};
   pl_text out = pl_text_make(d->arena);
   while (*request) {
     size_t n = 0;

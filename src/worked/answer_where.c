@@ -223,12 +223,12 @@ bool pl_is_circular(pl_analysis* d, pl_expr name, pl_expr value) {
 }
 
 static void say_circular(pl_analysis* d, pl_expr name) {
-  pl_say(d,
-         "This cannot be answered: the conditions and the motion that is known give no equation "
-         "from which {1} follows.",
-         "Das lässt sich nicht beantworten: die Bedingungen und was von der Bewegung bekannt ist, "
-         "geben keine Gleichung, aus der {1} folgt.",
-         1, pl_fe(d, name));
+  pl_say(
+      d,
+      PL_BOTH(
+          "This cannot be answered: the conditions and the motion that is known give no equation "
+          "from which {1} follows."),
+      1, pl_fe(d, name));
   d->page->section->not_found = true;
 }
 
@@ -240,7 +240,7 @@ static void say_independent(pl_analysis* d, pl_expr value) {
   int n = 0;
   for (int k = 0; k < d->model->params.n; k++)
     if (!d->model->params.at[k].literal) f[n++] = pl_fs(d, d->model->params.at[k].symbol);
-  if (n) pl_say(d, "independent of {1}", "unabhängig von {1}", 1, pl_flist(d, f, n));
+  if (n) pl_say(d, PL_BOTH("independent of {1}"), 1, pl_flist(d, f, n));
 }
 
 // e >= 0 without factors that are positive anyway.
@@ -289,7 +289,7 @@ void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition)
   if (!pl_is_poison(condition)) {
     condition = without_positive_factors(d, condition);
     v->exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, condition));
-    pl_say(d, "if {1}", "falls {1}", 1, condition_form(d, condition));
+    pl_say(d, PL_BOTH("if {1}"), 1, condition_form(d, condition));
   }
   say_independent(d, value);
   if (isnan(x)) return;
@@ -336,8 +336,7 @@ static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, ask->where.n + 1);
   for (int k = 0; k < ask->where.n; k++)
     f[k] = pl_feq(d, pl_fe(d, ask->where.at[k].left), pl_fe(d, ask->where.at[k].right));
-  pl_say(d, ask->where.n == 1 ? "Condition {1}:" : "Conditions {1}:",
-         ask->where.n == 1 ? "Bedingung {1}:" : "Bedingungen {1}:", 1,
+  pl_say(d, PL_BOTH(ask->where.n == 1 ? "Condition {1}:" : "Conditions {1}:"), 1,
          pl_flist(d, f, ask->where.n));
   pl_show(d, pl_feq(d, pl_f(d, e, PL_S_QUOTIENT), pl_form_leaf(d->arena, pl_int(d->pool, 0))));
 }
@@ -643,7 +642,7 @@ static bool with_free_signs(pl_analysis* d, const pl_where* p) {
     condition = without_positive_factors(d, condition);
     const pl_form* form = pl_f(d, found.value[k], PL_S_PLAIN);
     pl_show(d, pl_feq(d, pl_fe(d, p->ask->value), form));
-    pl_say(d, "if {1}", "falls {1}", 1, condition_form(d, condition));
+    pl_say(d, PL_BOTH("if {1}"), 1, condition_form(d, condition));
     pl_expr value = pl_subst(d->pool, found.value[k], back, n);
     pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, p->ask->value), value, NULL);
     v->exists_if = pl_format(
@@ -684,8 +683,9 @@ static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
     pl_show_met(d, ask->value, found.value[k], condition);
   }
   if (found.n > unreal || with_free_signs(d, p)) return;
-  pl_say(d, found.complete ? "No state satisfies this." : "No solution in closed form was found.",
-         found.complete ? "Das ist nie erfüllt." : "Eine geschlossene Lösung wurde nicht gefunden.",
+  pl_say(d,
+         PL_BOTH(found.complete ? "No state satisfies this."
+                                : "No solution in closed form was found."),
          0);
   d->page->section->not_found = !found.complete;
 }
@@ -717,12 +717,12 @@ static bool on_the_way(pl_analysis* d, const pl_where* p) {
 }
 
 static void say_motion_unknown(pl_analysis* d) {
-  pl_say(d,
-         "The motion from this start is not known in closed form, and it could not be followed in "
-         "numbers.",
-         "Die Bewegung von diesem Start ist nicht geschlossen bekannt und ließ sich in Zahlen "
-         "nicht verfolgen.",
-         0);
+  pl_say(
+      d,
+      PL_BOTH(
+          "The motion from this start is not known in closed form, and it could not be followed in "
+          "numbers."),
+      0);
   d->page->section->not_found = true;
 }
 
@@ -746,7 +746,7 @@ static void show_in_assembly(pl_analysis* d, const pl_where* p, int assembly, do
   pl_step* step = show_number(d, p->ask->value, x);
   const char* branch = pl_branch_text(d, assembly, PL_MATH_LINE);
   if (!branch) return;
-  pl_step_after(step, pl_format(d->arena, "for %s", branch), pl_format(d->arena, "für %s", branch));
+  pl_step_after(step, PL_BOTH_FORMAT(d->arena, "for %s", branch));
   d->page->section->values.at[d->page->section->values.n - 1].branch = pl_branch_text(
       d, assembly, PL_MATH_ASCII);
 }
@@ -765,7 +765,7 @@ static bool loops_followed(pl_analysis* d, const pl_where* p) {
       show_in_assembly(d, p, a, f.asked);
       continue;
     }
-    if (branch) pl_say(d, "For {1}:", "Für {1}:", 1, pl_fn(d, branch));
+    if (branch) pl_say(d, PL_BOTH("For {1}:"), 1, pl_fn(d, branch));
     pl_say_followed(d, &s, &f);
   }
   return any;
@@ -791,7 +791,7 @@ bool pl_where_in_loops(pl_analysis* d, const pl_ask* ask) {
   bool unmoved = pinned && !pl_has_role(d->pool, p.asked, PL_R_VELOCITY);
   if (!pinned && !one) return false;
   pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "For the given numbers:", "Mit den gegebenen Zahlen:", 0);
+  pl_say(d, PL_BOTH("For the given numbers:"), 0);
   if (unmoved || (pinned && !one)) {
     for (int a = 0; a < pl_assemblies(d); a++) show_in_assembly(d, &p, a, x[a]);
     return true;

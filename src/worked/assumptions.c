@@ -55,7 +55,8 @@ static const char* told_fact(pl_analysis* d, const pl_analysis* of, const pl_fac
   if (!later) return text;
   const char* when = pl_notation_print(d->arena, d->pool, pl_moment_form(d, of->stage->from),
                                        (pl_notation){.math = PL_MATH_LINE, .lang = d->job->lang});
-  return pl_format(d->arena, d->job->lang == PL_GERMAN ? "%s (ab %s)" : "%s (from %s)", text, when);
+  return pl_format(d->arena, d->job->lang == PL_GERMAN ? pl_german("%s (from %s)") : "%s (from %s)",
+                   text, when);
 }
 
 void pl_list_assumptions(pl_analysis* d, pl_analysis** of, int n_of) {

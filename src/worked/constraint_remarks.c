@@ -16,16 +16,15 @@ static void note_implied(pl_analysis* d, const pl_bond* l, const pl_constraint_i
   const char* others = info->n_implied_by > 0 ? pl_text_string(&by) : NULL;
   const char* label = l->source->name.text;
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N052, l->source->span,
-                               pl_format(d->arena, "constraint %s says nothing new", label),
-                               pl_format(d->arena, "Zwangsbedingung %s sagt nichts Neues", label));
-  pl_report_reason(m, pl_format(d->arena, "implied by %s", others ? others : "the others"),
-                   pl_format(d->arena, "folgt aus %s", others ? others : "den anderen"));
-  pl_report_fix(m,
-                "fine for the motion, but the forces of these constraints are not unique; add \", "
-                "redundant ok\" to keep it",
-                "für die Bewegung ohne Folgen, aber die Kräfte dieser Zwangsbedingungen sind nicht "
-                "eindeutig; mit \", redundant ok\" bleibt sie",
-                NULL);
+                               PL_BOTH_FORMAT(d->arena, "constraint %s says nothing new", label));
+  pl_report_reason(
+      m, pl_format(d->arena, "implied by %s", others ? others : "the others"),
+      pl_format(d->arena, pl_german("implied by %s"), others ? others : pl_german("the others")));
+  pl_report_fix(
+      m,
+      PL_BOTH("fine for the motion, but the forces of these constraints are not unique; add \", "
+              "redundant ok\" to keep it"),
+      NULL);
 }
 
 static void describe_open(pl_analysis* d) {
@@ -77,12 +76,9 @@ pleuel_status pl_report_contradiction(pl_analysis* d) {
                                        (pl_notation){PL_MATH_LINE, d->job->lang});
   pl_diagnostic* m = pl_report(
       d->job->diagnostics, PL_E042, l->source->span,
-      pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0",
-                l->source->name.text, text),
-      pl_format(d->arena, "Zwangsbedingung %s widerspricht den anderen: es bleibt %s = 0",
-                l->source->name.text, text));
-  pl_report_fix(m, "take one of the contradicting constraints out",
-                "eine der widersprechenden Zwangsbedingungen streichen", NULL);
+      PL_BOTH_FORMAT(d->arena, "constraint %s contradicts the others: it leaves %s = 0",
+                     l->source->name.text, text));
+  pl_report_fix(m, PL_BOTH("take one of the contradicting constraints out"), NULL);
   return pl_fail(d->job, PLEUEL_CONTRADICTION,
                  "constraint %s contradicts the others: it leaves %s = 0", l->source->name.ascii,
                  text);

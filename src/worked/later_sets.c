@@ -74,11 +74,11 @@ typedef enum pl_state_word {
   PL_WORD_DEED,
   PL_N_WORDS
 } pl_state_word;
-static const char* const state_word[PL_N_WORDS][2][2] = {
-    // holds, does not; in two languages
-    [PL_WORD_CONTACT] = {{"closed", "geschlossen"}, {"open", "offen"}},
-    [PL_WORD_ROPE] = {{"taut", "straff"}, {"slack", "schlaff"}},
-    [PL_WORD_DEED] = {{"attached", "befestigt"}, {"released", "gelöst"}},
+static const char* const state_word[PL_N_WORDS][2] = {
+    // holds, does not
+    [PL_WORD_CONTACT] = {PL_KEY("closed"), PL_KEY("open")},
+    [PL_WORD_ROPE] = {PL_KEY("taut"), PL_KEY("slack")},
+    [PL_WORD_DEED] = {PL_KEY("attached"), PL_KEY("released")},
 };
 
 static pl_state_word word_for(const pl_analysis* d, const pl_constraint* c) {
@@ -116,13 +116,15 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
   const char** name = PL_ARRAY(d->arena, const char*, d->whole->constraints.n + 1);
   bool de = lang == PL_GERMAN;
   pl_text t = pl_text_make(d->arena);
-  pl_text_addf(&t, de ? "Ab %s: " : "From %s: ", pl_stage_seconds(d, d->stage->from, lang));
+  pl_text_addf(
+      &t, de ? pl_german("From %s: ") : "From %s: ", pl_stage_seconds(d, d->stage->from, lang));
   const pl_stage* first = &d->page->solution->stages.at[0];
   bool any = false;
   for (int holds = 1; holds >= 0; holds--) {
     for (int word = 0; word < PL_N_WORDS; word++) {
       int n = list_changes(d, first, holds, (pl_state_word)word, name);
-      add_names(&t, name, n, state_word[word][!holds][de], &any);
+      add_names(&t, name, n, pl_in_language(de ? PL_GERMAN : PL_ENGLISH, state_word[word][!holds]),
+                &any);
     }
   }
   for (int k = 0; k < d->stage->n_crossed; k++) {
@@ -138,8 +140,10 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
     bool same = then && now->sticks == then->sticks && now->slips == then->slips
                 && (!now->slips || now->way == then->way);
     if (same || (!now->sticks && !now->slips)) continue;
-    add_names(&t, &now->on, 1,
-              now->sticks ? (de ? "haftet" : "sticks") : (de ? "gleitet" : "slips"), &any);
+    add_names(
+        &t, &now->on, 1,
+        now->sticks ? (de ? pl_german("sticks") : "sticks") : (de ? pl_german("slips") : "slips"),
+        &any);
   }
   return pl_text_string(&t);
 }
@@ -172,22 +176,22 @@ static void say_begin(pl_analysis* d, const pl_stage* before) {
                                        place_text(d, s, PL_GERMAN));
   const pl_form* end = before->to == s->from ? pl_form_end(d, before) : NULL;
   if (end) {
-    pl_say(d, "It begins where {1}: at {2}, {3}.", "Es beginnt, wo {1}: bei {2}, {3}.", 3, end,
-           pl_moment_form(d, s->from), place);
-  } else {
-    pl_say(d, "It begins at {1}, {2}.", "Es beginnt bei {1}, {2}.", 2, pl_moment_form(d, s->from),
+    pl_say(d, PL_BOTH("It begins where {1}: at {2}, {3}."), 3, end, pl_moment_form(d, s->from),
            place);
+  } else {
+    pl_say(d, PL_BOTH("It begins at {1}, {2}."), 2, pl_moment_form(d, s->from), place);
   }
   int n = d->dof.dof;
   pl_say(d, n == 1 ? "1 degree of freedom." : pl_format(d->arena, "%d degrees of freedom.", n),
-         n == 1 ? "1 Freiheitsgrad." : pl_format(d->arena, "%d Freiheitsgrade.", n), 0);
+         n == 1 ? pl_german("1 degree of freedom.")
+                : pl_format(d->arena, pl_german("%d degrees of freedom."), n),
+         0);
   for (int k = 0; k < d->whole->asks.n; k++) {
     if (!is_motion(&d->whole->asks.at[k]) || contains_time(d)) continue;
     pl_say(d,
-           "In the motions that follow {1} counts from here, and the start values are those of "
-           "this moment.",
-           "In den folgenden Bewegungen zählt {1} von hier, und die Startwerte sind die dieses "
-           "Augenblicks.",
+           PL_BOTH(
+               "In the motions that follow {1} counts from here, and the start values are those of "
+               "this moment."),
            1, pl_fs(d, pl_time(d->pool)));
     return;
   }
@@ -301,9 +305,9 @@ void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
   if (!d || !d->reduced) return;
   pl_section* own = &first->page->solution->sections.at[first->page->solution->sections.n - 1];
   own->title[0] = "Equilibria as the start has the contacts";
-  own->title[1] = "Gleichgewichtslagen mit den Kontakten des Starts";
+  own->title[1] = pl_german("Equilibria as the start has the contacts");
   pl_answer_one(d, ask);
   d->page->section->beside = true;
   d->page->section->title[0] = "Equilibria with all contacts closed";
-  d->page->section->title[1] = "Gleichgewichtslagen mit allen Kontakten geschlossen";
+  d->page->section->title[1] = pl_german("Equilibria with all contacts closed");
 }

@@ -71,15 +71,14 @@ static void show_equation(pl_analysis* d, const pl_loop* l) {
   const pl_form* u = pl_fs(d, d->q.at[l->coordinate[0]].q);
   const pl_form* first = pl_fn(d, d->g.at[l->bond[0]].source->name.text);
   if (l->n == 1) {
-    pl_say(d, l->n_ways > 1 ? "{1} determines {2}, in several ways:" : "{1} determines {2}:",
-           l->n_ways > 1 ? "{1} bestimmt {2}, auf mehrere Weisen:" : "{1} bestimmt {2}:", 2, first,
-           u);
+    pl_say(d,
+           PL_BOTH(l->n_ways > 1 ? "{1} determines {2}, in several ways:" : "{1} determines {2}:"),
+           2, first, u);
     return;
   }
   const pl_form* v = pl_fs(d, d->q.at[l->coordinate[1]].q);
-  pl_say(d, "{1} and {2} close a loop and determine {3} and {4}. {4} eliminated:",
-         "{1} und {2} schließen eine Schleife und bestimmen {3} und {4}. {4} eliminiert:", 4, first,
-         pl_fn(d, d->g.at[l->bond[1]].source->name.text), u, v);
+  pl_say(d, PL_BOTH("{1} and {2} close a loop and determine {3} and {4}. {4} eliminated:"), 4,
+         first, pl_fn(d, d->g.at[l->bond[1]].source->name.text), u, v);
   if (!l->by_angle) {
     pl_show_numbered(d, pl_feq(d, pl_f(d, l->eliminated, PL_S_EQUATION), zero_form(d)));
     return;
@@ -89,7 +88,7 @@ static void show_equation(pl_analysis* d, const pl_loop* l) {
 
 static void show_names(pl_analysis* d, const pl_loop* l) {
   if (l->names.n == 0) return;
-  pl_say(d, "with", "mit", 0);
+  pl_say(d, PL_BOTH("with"), 0);
   for (int k = 0; k < l->names.n; k++) {
     const pl_definition* n = &l->names.at[k];
     bool root = pl_is_sqrt(d->pool, n->value);
@@ -120,8 +119,7 @@ static void show_value(pl_analysis* d, const pl_loop* l, int way, int j, bool te
   if (!tell) return;
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
   const char* text = pl_notation_print(d->arena, d->pool, condition(d, l, way), how);
-  if (signs_differ(l))
-    pl_step_after(step, pl_format(d->arena, "for %s", text), pl_format(d->arena, "für %s", text));
+  if (signs_differ(l)) pl_step_after(step, PL_BOTH_FORMAT(d->arena, "for %s", text));
 }
 
 static bool same_in_all(const pl_loop* l, int j) {
@@ -140,8 +138,7 @@ static void show_ways(pl_analysis* d, const pl_loop* l) {
   pl_expr real = l->real;
   while (pl_kind_of(d->pool, real) == PL_CALL && pl_function_of(d->pool, real) == PL_MIN)
     real = pl_arg(d->pool, real, 1);
-  pl_say(d, "real where {1}", "reell für {1}", 1,
-         pl_frel(d, pl_f(d, real, PL_S_PLAIN), "≥", zero_form(d)));
+  pl_say(d, PL_BOTH("real where {1}"), 1, pl_frel(d, pl_f(d, real, PL_S_PLAIN), "≥", zero_form(d)));
 }
 
 static void answer_place(pl_analysis* d, int k, int j) {
@@ -192,8 +189,7 @@ static void show_rates(pl_analysis* d, const pl_loop* l) {
 
 void pl_show_loop_velocities(pl_analysis* d) {
   if (d->loops.n == 0) return;
-  pl_say(d, "The constraints differentiated are linear in the velocities:",
-         "Die abgeleiteten Zwangsbedingungen sind linear in den Geschwindigkeiten:", 0);
+  pl_say(d, PL_BOTH("The constraints differentiated are linear in the velocities:"), 0);
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
     show_rates(d, l);
@@ -203,8 +199,7 @@ void pl_show_loop_velocities(pl_analysis* d) {
   bool bends = false;
   for (int k = 0; k < d->loops.n; k++) bends |= d->loops.at[k].bends.n > 0;
   if (!bends) return;
-  pl_say(d, "and the coefficients change at the rates", "und die Koeffizienten ändern sich gemäß",
-         0);
+  pl_say(d, PL_BOTH("and the coefficients change at the rates"), 0);
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
     for (int j = 0; j < l->slopes.n; j++) {

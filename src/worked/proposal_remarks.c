@@ -30,17 +30,13 @@ void pl_tell_proposal(pl_analysis* a) {
   bool one = choose->coords.n == 1;
   if (n > 0) {
     pl_say(a,
-           one ? "{1} is proposed as generalized coordinate: {2}."
-               : "{1} are proposed as generalized coordinates: {2}.",
-           one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen: {2}."
-               : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen: {2}.",
+           PL_BOTH(one ? "{1} is proposed as generalized coordinate: {2}."
+                       : "{1} are proposed as generalized coordinates: {2}."),
            2, names, maps);
   } else {
     pl_say(a,
-           one ? "{1} is proposed as generalized coordinate."
-               : "{1} are proposed as generalized coordinates.",
-           one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen."
-               : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen.",
+           PL_BOTH(one ? "{1} is proposed as generalized coordinate."
+                       : "{1} are proposed as generalized coordinates."),
            1, names);
   }
 }

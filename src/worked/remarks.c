@@ -45,18 +45,14 @@ void pl_note_equilibrium_start(pl_analysis* d) {
   const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[0]].q)->name;
   pl_diagnostic* m = pl_report(
       d->job->diagnostics, PL_N061, span,
-      "the start is an equilibrium: the simulation will stay there for ever",
-      "der Start ist eine Gleichgewichtslage: die Simulation bleibt für immer dort");
-  pl_report_fix(m,
-                pl_format(d->arena,
-                          "closed forms are the limit %s(0) → this value; for the simulation start "
-                          "beside it, e.g. init %s = 1°",
-                          name, name),
-                pl_format(d->arena,
-                          "geschlossene Formen sind der Grenzfall %s(0) → dieser Wert; für die "
-                          "Simulation daneben starten, z. B. init %s = 1°",
-                          name, name),
-                NULL);
+      PL_BOTH("the start is an equilibrium: the simulation will stay there for ever"));
+  pl_report_fix(
+      m,
+      PL_BOTH_FORMAT(d->arena,
+                     "closed forms are the limit %s(0) → this value; for the simulation start "
+                     "beside it, e.g. init %s = 1°",
+                     name, name),
+      NULL);
   note_escape(d, span);
 }
 
@@ -73,17 +69,17 @@ static void note_escape(pl_analysis* d, pl_span span) {
       pl_format(d->arena,
                 "the motion from this start is not unique: the force is not Lipschitz there, its "
                 "slope grows without bound"),
-      pl_format(d->arena,
-                "die Bewegung von diesem Start aus ist nicht eindeutig: die Kraft ist dort nicht "
-                "Lipschitz-stetig, ihre Steigung wächst unbeschränkt"));
+      pl_format(
+          d->arena,
+          pl_german(
+              "the motion from this start is not unique: the force is not Lipschitz there, its "
+              "slope grows without bound")));
   if (!way) return;
   const char* wait_name = pl_symbol_get(d->pool, wait)->name;
   pl_report_reason(
       m,
-      pl_format(d->arena, "besides rest, %s from t = %s on is a motion too, for every %s ≥ 0", way,
-                wait_name, wait_name),
-      pl_format(d->arena, "neben der Ruhe ist auch %s ab t = %s eine Bewegung, für jedes %s ≥ 0",
-                way, wait_name, wait_name));
+      PL_BOTH_FORMAT(d->arena, "besides rest, %s from t = %s on is a motion too, for every %s ≥ 0",
+                     way, wait_name, wait_name));
 }
 
 // ------------------------------------------------------------------------------------- attribution
@@ -141,17 +137,12 @@ void pl_note_attribution(pl_analysis* d, int link) {
   const char* carried = guide->lambda_known ? pl_text_of(d, guide->lambda_value) : "?";
   pl_diagnostic* note = pl_report(
       d->job->diagnostics, PL_N055, l->source->span,
-      pl_format(d->arena,
-                "%s contains %s but not %s, which %s holds at 0: the force of %s on %s has no part "
-                "along %s, and %s carries %s alone",
-                g, z1->name, z2->name, guide->source->name.text, g, label, z2->name,
-                guide->source->name.text, carried),
-      pl_format(d->arena,
-                "%s enthält %s, aber nicht %s, das %s auf 0 hält: die Kraft von %s auf %s hat "
-                "keinen Anteil längs %s, und %s trägt allein %s",
-                g, z1->name, z2->name, guide->source->name.text, g, label, z2->name,
-                guide->source->name.text, carried));
-  pl_report_fix(note, pl_format(d->arena, "write %s for the full force", text),
-                pl_format(d->arena, "für die volle Kraft: %s", text), text);
+      PL_BOTH_FORMAT(
+          d->arena,
+          "%s contains %s but not %s, which %s holds at 0: the force of %s on %s has no part "
+          "along %s, and %s carries %s alone",
+          g, z1->name, z2->name, guide->source->name.text, g, label, z2->name,
+          guide->source->name.text, carried));
+  pl_report_fix(note, PL_BOTH_FORMAT(d->arena, "write %s for the full force", text), text);
   pl_report_fix_span(note, l->source->relation_span);
 }

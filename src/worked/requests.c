@@ -27,23 +27,21 @@ static bool rubs(const pl_analysis* d) {
 
 // What slips takes energy, and more is not claimed.
 static void answer_conserved_with_friction(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
-  pl_say(d, "The energy is not conserved: where surfaces slip, friction does work.",
-         "Die Energie ist nicht erhalten: wo Flächen gleiten, leistet die Reibung Arbeit.", 0);
+  pl_section_open(d, ask, PL_BOTH("Conserved"));
+  pl_say(d, PL_BOTH("The energy is not conserved: where surfaces slip, friction does work."), 0);
   pl_value* v = pl_answer(d, "E", pl_poison(), NULL);
   v->conserved = 0;
   v->because[0] = "friction does work";
-  v->because[1] = "die Reibung leistet Arbeit";
+  v->because[1] = pl_german("friction does work");
 }
 
 static void leave_to_simulation(pl_analysis* d, const pl_ask* ask) {
   if (!d->page->section || d->page->section->item != ask->text)
     pl_section_open(d, ask, ask->text, ask->text);
   pl_say(d,
-         "Friction acts here, with a force that jumps between sticking and slipping: no formula is "
-         "given. The simulation computes the motion.",
-         "Hier wirkt Reibung, deren Kraft zwischen Haften und Gleiten springt: keine Formel. Die "
-         "Simulation berechnet die Bewegung.",
+         PL_BOTH("Friction acts here, with a force that jumps between sticking and slipping: no "
+                 "formula is "
+                 "given. The simulation computes the motion."),
          0);
   d->page->section->not_found = true;
 }
@@ -59,7 +57,7 @@ static bool needs_explicit_maps(const pl_ask* ask) {
 // The equations of the second kind at rest, over the names of the loops.
 static void show_rest(pl_analysis* d) {
   pl_tell_loops(d);
-  pl_say(d, "At rest the constraints hold and", "In Ruhe gelten die Zwangsbedingungen und", 0);
+  pl_say(d, PL_BOTH("At rest the constraints hold and"), 0);
   for (int k = 0; k < d->gen.n; k++) {
     pl_expr e = pl_second_kind(d, d->gen.at[k]);
     for (int j = 0; j < d->gen.n; j++) {
@@ -74,12 +72,11 @@ static void show_rest(pl_analysis* d) {
 
 static void leave_implicit(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d,
-         "The coordinates of closed loops follow from the generalized ones through roots; no "
-         "closed form was found for this.",
-         "Die Koordinaten geschlossener Schleifen folgen aus den verallgemeinerten durch Wurzeln; "
-         "hierfür wurde keine geschlossene Form gefunden.",
-         0);
+  pl_say(
+      d,
+      PL_BOTH("The coordinates of closed loops follow from the generalized ones through roots; no "
+              "closed form was found for this."),
+      0);
   d->page->section->not_found = true;
   if (ask->kind == PL_ASK_EQUILIBRIA) show_rest(d);
 }

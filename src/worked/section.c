@@ -36,12 +36,9 @@ pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, c
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
   if (!d->page->section || d->page->section->item != ask->text)
     pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "This version does not compute this request.",
-         "Diese Version berechnet diese Anfrage nicht.", 0);
-  pl_report(
-      d->job->diagnostics, PL_N091, ask->span,
-      pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
-      pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet",
-                ask->text));
+  pl_say(d, PL_BOTH("This version does not compute this request."), 0);
+  pl_report(d->job->diagnostics, PL_N091, ask->span,
+            PL_BOTH_FORMAT(d->arena, "\"%s\" is understood, but this version does not compute it",
+                           ask->text));
   d->page->section->not_found = true;
 }

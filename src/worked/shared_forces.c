@@ -19,9 +19,10 @@ static void show_sums(pl_analysis* d, const bool* in) {
 static void show_smallest(pl_analysis* d, const bool* in) {
   pl_expr* lambda = PL_ARRAY(d->arena, pl_expr, d->g.n);
   if (!pl_smallest_multipliers(d, in, lambda)) return;
-  pl_say(
-      d, "A choice is needed for more; the one with the smallest sum of squares (minimum norm) is:",
-      "Für mehr ist eine Wahl nötig; die mit der kleinsten Quadratsumme (minimale Norm) ist:", 0);
+  pl_say(d,
+         PL_BOTH("A choice is needed for more; the one with the smallest sum of squares (minimum "
+                 "norm) is:"),
+         0);
   for (int a = 0; a < d->g.n; a++) {
     if (!in[a] || !d->g.at[a].lambda_known) continue;
     const pl_form* form = pl_f(d, lambda[a], PL_S_QUOTIENT);
@@ -45,14 +46,10 @@ bool pl_say_shared(pl_analysis* d, int link) {
     n_free += pl_dependence_of(d, k) != NULL;
   }
   pl_say(d,
-         pl_format(d->arena,
-                   "The constraints {1} depend on each other (rank %d of %d): {2} is not "
-                   "determined, only the sums",
-                   n - n_free, n),
-         pl_format(d->arena,
-                   "Die Zwangsbedingungen {1} hängen voneinander ab (Rang %d von %d): {2} ist "
-                   "nicht bestimmt, nur die Summen",
-                   n - n_free, n),
+         PL_BOTH_FORMAT(d->arena,
+                        "The constraints {1} depend on each other (rank %d of %d): {2} is not "
+                        "determined, only the sums",
+                        n - n_free, n),
          2, pl_flist(d, name, n), pl_fs(d, d->g.at[link].lambda));
   show_sums(d, in);
   show_smallest(d, in);

@@ -111,10 +111,9 @@ void pl_say_while(pl_analysis* d, int from) {
   double begin = d->stage ? d->stage->from : 0;
   bool told = m >= n && !d->later && pl_leave(d, known, m, begin, pl_end_of_stage(d->stage), &l);
   if (told && l.leaves) {
-    pl_say(d, "This holds as long as {1}, until {2}.", "Das gilt, solange {1}, also bis {2}.", 2,
-           form, pl_moment_form(d, l.t));
+    pl_say(d, PL_BOTH("This holds as long as {1}, until {2}."), 2, form, pl_moment_form(d, l.t));
   } else {
-    pl_say(d, "This holds as long as {1}.", "Das gilt, solange {1}.", 1, form);
+    pl_say(d, PL_BOTH("This holds as long as {1}."), 1, form);
   }
 }
 

@@ -10,12 +10,12 @@ enum { max_roots = 8 };
 
 static void say_places(pl_analysis* d, int i, const pl_form* const* place, int n) {
   const char* label = d->g.at[d->q.at[i].solved_by].source->name.text;
-  pl_say(d,
-         "Singular position {1}: there {2} does not determine {3}, the mechanism can branch, and "
-         "these formulas do not hold.",
-         "Singuläre Lage {1}: dort legt {2} die Koordinate {3} nicht fest, der Mechanismus kann "
-         "sich verzweigen, und diese Formeln gelten nicht.",
-         3, pl_flist(d, place, n), pl_fn(d, label), pl_fs(d, d->q.at[i].q));
+  pl_say(
+      d,
+      PL_BOTH(
+          "Singular position {1}: there {2} does not determine {3}, the mechanism can branch, and "
+          "these formulas do not hold."),
+      3, pl_flist(d, place, n), pl_fn(d, label), pl_fs(d, d->q.at[i].q));
 }
 
 // With the given numbers: the places themselves.

@@ -6,12 +6,12 @@ void pl_say_special(pl_analysis* d) {
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->special.n);
   for (int k = 0; k < d->special.n; k++)
     f[k] = pl_feq(d, pl_fs(d, d->special.at[k].from), pl_f(d, d->special.at[k].to, PL_S_QUOTIENT));
-  pl_say(d,
-         "The given numbers are a special case, {1}, for which the general result does not hold. "
-         "In this case:",
-         "Die gegebenen Zahlen sind ein Sonderfall, {1}, für den das allgemeine Ergebnis nicht "
-         "gilt. In diesem Fall:",
-         1, pl_flist(d, f, d->special.n));
+  pl_say(
+      d,
+      PL_BOTH(
+          "The given numbers are a special case, {1}, for which the general result does not hold. "
+          "In this case:"),
+      1, pl_flist(d, f, d->special.n));
 }
 
 void pl_tell_cases(pl_analysis* d) {
@@ -20,37 +20,36 @@ void pl_tell_cases(pl_analysis* d) {
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->cases.n);
   for (int k = 0; k < d->cases.n; k++)
     f[k] = pl_feq(d, pl_fs(d, d->cases.at[k].from), pl_f(d, d->cases.at[k].to, PL_S_QUOTIENT));
-  pl_say(d, "The given numbers are a special case, {1}; everything here holds for this case.",
-         "Die gegebenen Zahlen sind ein Sonderfall, {1}; alles hier gilt für diesen Fall.", 1,
-         pl_flist(d, f, d->cases.n));
+  pl_say(d,
+         PL_BOTH("The given numbers are a special case, {1}; everything here holds for this case."),
+         1, pl_flist(d, f, d->cases.n));
 }
 
 void pl_say_pole(pl_analysis* d, pl_expr e) {
   pl_expr base;
   if (!pl_pole_at_numbers(d, e, &base)) return;
-  pl_say(d, "For the given numbers {1} is 0: the formula has no value there.",
-         "Für die gegebenen Zahlen ist {1} gleich 0: dort hat die Formel keinen Wert.", 1,
+  pl_say(d, PL_BOTH("For the given numbers {1} is 0: the formula has no value there."), 1,
          pl_f(d, base, PL_S_PLAIN));
 }
 
 void pl_say_rank_at_start(pl_analysis* d) {
   int m = 0, rank = pl_rank_at_start(d, &m);
   if (rank < 0 || rank == m) return;
-  pl_say(d,
-         pl_format(d->arena,
-                   "This counts at a general position. At the start the constraints lose rank: of "
-                   "%d gradients %d %s independent there.",
-                   m, rank, rank == 1 ? "is" : "are"),
-         pl_format(d->arena,
-                   "So gezählt wird in allgemeiner Lage. Am Start verlieren die Zwangsbedingungen "
-                   "an Rang: von %d Gradienten %s dort %d "
-                   "unabhängig.",
-                   m, rank == 1 ? "ist" : "sind", rank),
-         0);
+  pl_say(
+      d,
+      pl_format(d->arena,
+                "This counts at a general position. At the start the constraints lose rank: of "
+                "%d gradients %d %s independent there.",
+                m, rank, rank == 1 ? "is" : "are"),
+      pl_format(
+          d->arena,
+          pl_german("This counts at a general position. At the start the constraints lose rank: of "
+                    "%d gradients %d %s independent there."),
+          m, rank, pl_german(rank == 1 ? "is" : "are")),
+      0);
 }
 
 void pl_say_pole_at_start(pl_analysis* d, const pl_form* name, pl_expr e) {
   if (!pl_divides_by_zero_at_start(d, e)) return;
-  pl_say(d, "At the start the denominator vanishes: {1} has no value there.",
-         "Am Start verschwindet der Nenner: {1} hat dort keinen Wert.", 1, name);
+  pl_say(d, PL_BOTH("At the start the denominator vanishes: {1} has no value there."), 1, name);
 }

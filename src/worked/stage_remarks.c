@@ -97,14 +97,12 @@ void pl_tell_friction(pl_analysis* d) {
                                                  : "<",
                                   zero_form(d));
     if (rub->sticks) {
-      pl_say(d, "Friction on {1} sticks, {2}, as long as {3}.",
-             "Die Reibung auf {1} haftet, {2}, solange {3}.", 3, pl_fn(d, c->name.text), slip,
-             pl_frel(d, limit_form(d, rub, c)->args[0], "≤", limit_form(d, rub, c)->args[1]));
+      pl_say(d, PL_BOTH("Friction on {1} sticks, {2}, as long as {3}."), 3, pl_fn(d, c->name.text),
+             slip, pl_frel(d, limit_form(d, rub, c)->args[0], "≤", limit_form(d, rub, c)->args[1]));
       show_sticking_force(d, rub);
     } else {
       pl_expr force = pl_mul(d->pool, rub->scale, size_of_multiplier(d, rub, c));
-      pl_say(d, "Friction on {1} slips, {2}, with the force {3} against the slip.",
-             "Die Reibung auf {1} gleitet, {2}, mit der Kraft {3} gegen das Gleiten.", 3,
+      pl_say(d, PL_BOTH("Friction on {1} slips, {2}, with the force {3} against the slip."), 3,
              pl_fn(d, c->name.text), slip, pl_fe(d, force));
     }
   }
@@ -153,16 +151,15 @@ void pl_say_stage_end(pl_analysis* d, const pl_stage* s) {
   pl_expr crossed;
   const pl_form* end = pl_form_end(d, s);
   if (s->end != PL_END_SIDE && pl_leaves_first(d, s, &l, &crossed)) {
-    pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2,
-           pl_border_form(d, crossed), pl_moment_form(d, l.t));
+    pl_say(d, PL_BOTH("This holds until {1}, at {2}."), 2, pl_border_form(d, crossed),
+           pl_moment_form(d, l.t));
     return;
   }
   if (end) {
-    pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2, end,
-           pl_moment_form(d, s->to));
+    pl_say(d, PL_BOTH("This holds until {1}, at {2}."), 2, end, pl_moment_form(d, s->to));
   } else if (s->end == PL_END_OF_RUN) {
-    pl_say(d, "This holds to the end of the simulation, {1}.",
-           "Das gilt bis zum Ende der Simulation, {1}.", 1, pl_moment_form(d, s->to));
+    pl_say(d, PL_BOTH("This holds to the end of the simulation, {1}."), 1,
+           pl_moment_form(d, s->to));
   }
 }
 
@@ -187,21 +184,17 @@ void pl_tell_open(pl_analysis* d) {
                 **apart = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1);
   int n = list_open(d, label, apart, true);
   if (n > 0) {
-    pl_say(d,
-           n == 1 ? "At the start the force of {1} would have to pull: it lets go at once."
-                  : "At the start the forces of {1} would have to pull: they let go at once.",
-           n == 1
-               ? "Beim Start müsste die Kraft von {1} ziehen: die Bedingung löst sich sofort."
-               : "Beim Start müssten die Kräfte von {1} ziehen: die Bedingungen lösen sich sofort.",
-           1, pl_flist(d, label, n));
+    pl_say(
+        d,
+        PL_BOTH(n == 1 ? "At the start the force of {1} would have to pull: it lets go at once."
+                       : "At the start the forces of {1} would have to pull: they let go at once."),
+        1, pl_flist(d, label, n));
   }
   n = list_open(d, label, apart, false);
   if (n > 0) {
     pl_say(d,
-           n == 1 ? "{1} is open at the start, {2}, and not in the equations."
-                  : "{1} are open at the start, {2}, and not in the equations.",
-           n == 1 ? "{1} ist beim Start offen, {2}, und steht nicht in den Gleichungen."
-                  : "{1} sind beim Start offen, {2}, und stehen nicht in den Gleichungen.",
+           PL_BOTH(n == 1 ? "{1} is open at the start, {2}, and not in the equations."
+                          : "{1} are open at the start, {2}, and not in the equations."),
            2, pl_flist(d, label, n), pl_flist(d, apart, n));
   }
   if (d->stage) pl_say_stage_end(d, d->stage);
@@ -216,15 +209,11 @@ void pl_note_undecided(pl_analysis* d) {
     bool push = (l->source->relation == PL_GE) != d->model->lambda_minus;
     pl_diagnostic* m = pl_report(
         d->job->diagnostics, PL_N075, l->source->span,
-        pl_format(d->arena, "%s is taken as closed: no start with numbers decides", label),
-        pl_format(d->arena, "%s gilt als geschlossen: kein Start mit Zahlen entscheidet", label));
+        PL_BOTH_FORMAT(d->arena, "%s is taken as closed: no start with numbers decides", label));
     const char* closed = pl_notation_print(
         d->arena, d->pool, form_met(d, l->source),
         (pl_notation){.math = PL_MATH_LINE, .lang = d->job->lang});
-    pl_report_reason(m,
-                     pl_format(d->arena, "the formulas hold while %s and %s %s 0", closed, lambda,
-                               push ? "≥" : "≤"),
-                     pl_format(d->arena, "die Formeln gelten, solange %s und %s %s 0", closed,
-                               lambda, push ? "≥" : "≤"));
+    pl_report_reason(m, PL_BOTH_FORMAT(d->arena, "the formulas hold while %s and %s %s 0", closed,
+                                       lambda, push ? "≥" : "≤"));
   }
 }

@@ -87,16 +87,13 @@ void pl_why_first_kind(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   if (!told(d, "why dalembert")) {
     say(d,
-        "Why: d'Alembert. In a displacement δx that the constraints allow, applied forces and "
-        "inertia do no work together: "
-        "Σ (d/dt ∂L/∂x' - ∂L/∂x - Q) δx = 0 for all δx with Σ ∂g/∂x δx = 0. With a factor λ for "
-        "each constraint every coordinate may be "
-        "varied by itself: d/dt ∂L/∂x' - ∂L/∂x - Q = Σ λ ∂g/∂x.",
-        "Warum: d'Alembert. Bei einer Verrückung δx, die die Zwangsbedingungen zulassen, leisten "
-        "eingeprägte Kräfte und Trägheit zusammen "
-        "keine Arbeit: Σ (d/dt ∂L/∂x' - ∂L/∂x - Q) δx = 0 für alle δx mit Σ ∂g/∂x δx = 0. Mit "
-        "einem Faktor λ je Zwangsbedingung darf jede "
-        "Koordinate für sich verrückt werden: d/dt ∂L/∂x' - ∂L/∂x - Q = Σ λ ∂g/∂x.");
+        PL_BOTH(
+            "Why: d'Alembert. In a displacement δx that the constraints allow, applied forces and "
+            "inertia do no work together: "
+            "Σ (d/dt ∂L/∂x' - ∂L/∂x - Q) δx = 0 for all δx with Σ ∂g/∂x δx = 0. With a factor λ "
+            "for "
+            "each constraint every coordinate may be "
+            "varied by itself: d/dt ∂L/∂x' - ∂L/∂x - Q = Σ λ ∂g/∂x."));
   }
   const char *x = name_of(d, c->q), *v = velocity_name(d, c);
   pl_expr p = pl_diff(d->pool, d->L, c->v), slope = pl_diff(d->pool, d->L, c->q);
@@ -121,11 +118,9 @@ void pl_why_differentiated(pl_analysis* d, int k) {
   pl_expr once = pl_on_fixed(d, pl_dt(d->pool, l->g));
   pl_expr shown = tidy(d, once);
   if (pl_op_count(d->pool, shown) > longest_detail) return;
-  say(d,
-      "Why: the constraint holds at all times, so its time derivative vanishes too; by the chain "
-      "rule",
-      "Warum: Die Zwangsbedingung gilt zu jeder Zeit, also verschwindet auch ihre Zeitableitung; "
-      "nach der Kettenregel");
+  say(d, PL_BOTH("Why: the constraint holds at all times, so its time derivative vanishes too; by "
+                 "the chain "
+                 "rule"));
   const pl_form* form = pl_fe(d, shown);
   pl_show(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "d%s/dt", l->source->name.text)),
                     pl_feq(d, form, zero_form(d))))
@@ -144,12 +139,11 @@ void pl_why_multiplier(pl_analysis* d, int k, pl_expr inserted) {
     others += j != k && pl_has_symbol(d->pool, inserted, d->g.at[j].lambda);
   }
   if (others > 0) {
-    pl_say(d,
-           "Why: each constraint gives an equation like this one, linear in the multipliers; "
-           "together they determine {1}.",
-           "Warum: Jede Zwangsbedingung gibt eine solche, in den Multiplikatoren lineare "
-           "Gleichung; zusammen bestimmen sie {1}.",
-           1, pl_fs(d, l->lambda))
+    pl_say(
+        d,
+        PL_BOTH("Why: each constraint gives an equation like this one, linear in the multipliers; "
+                "together they determine {1}."),
+        1, pl_fs(d, l->lambda))
         ->detail = true;
     return;
   }
@@ -158,10 +152,9 @@ void pl_why_multiplier(pl_analysis* d, int k, pl_expr inserted) {
   pl_expr quotient = pl_div(d->pool, pl_neg(d->pool, rest), factor);
   if (pl_op_count(d->pool, quotient) > longest_detail) return;
   pl_say(d,
-         "Why: linear in {1}. What is free of it goes to the right, then both sides are divided by "
-         "{2}:",
-         "Warum: linear in {1}. Was davon frei ist, kommt nach rechts, dann werden beide Seiten "
-         "durch {2} geteilt:",
+         PL_BOTH("Why: linear in {1}. What is free of it goes to the right, then both sides are "
+                 "divided by "
+                 "{2}:"),
          2, pl_fs(d, l->lambda), pl_fe(d, factor))
       ->detail = true;
   show(d, name_of(d, l->lambda), quotient, pl_sym(d->pool, l->lambda), true);
@@ -193,13 +186,10 @@ static void show_vector(pl_analysis* d, const char* name, const pl_particle* k,
 }
 
 void pl_why_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
-  say(d,
-      "Why: the unit vectors point along the curves on which one coordinate changes, e_i = ∂X/∂q_i "
-      "/ |∂X/∂q_i|; they turn with the "
-      "motion, which gives the terms with products of velocities:",
-      "Warum: Die Einheitsvektoren zeigen längs der Linien, auf denen sich eine Koordinate ändert, "
-      "e_i = ∂X/∂q_i / |∂X/∂q_i|; sie drehen sich "
-      "mit der Bewegung, daher die Glieder mit Produkten von Geschwindigkeiten:");
+  say(d, PL_BOTH("Why: the unit vectors point along the curves on which one coordinate changes, "
+                 "e_i = ∂X/∂q_i "
+                 "/ |∂X/∂q_i|; they turn with the "
+                 "motion, which gives the terms with products of velocities:"));
   pl_expr component[3];
   show_vector(d, "X", k, k->at);
   for (int j = 0; j < f->n; j++) {
@@ -215,8 +205,8 @@ void pl_why_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
   for (int c = 0; c < k->n; c++)
     pl_claim_that(d, PL_CLAIM_OTHER, component[c], pl_dt(d->pool, pl_dt(d->pool, k->at[c])));
   show_vector(d, "X''", k, component);
-  say(d, "The components of X'' along the unit vectors are its scalar products with them:",
-      "Die Komponenten von X'' längs der Einheitsvektoren sind die Skalarprodukte mit ihnen:");
+  say(d,
+      PL_BOTH("The components of X'' along the unit vectors are its scalar products with them:"));
 }
 
 // ------------------------------------------------------------------------------------- second kind
@@ -227,21 +217,17 @@ void pl_why_second_kind(pl_analysis* d, int i) {
           rate = pl_on_maps(d, pl_dt(d->pool, p));
   pl_expr rest = tidy(d, pl_sub(d->pool, pl_sub(d->pool, rate, slope), pl_second_kind(d, i)));
   if (pl_op_count(d->pool, tidy(d, p)) > longest_detail) return;
-  say(d, "Why: momentum, its time derivative, and the slope of L:",
-      "Warum: Impuls, seine Zeitableitung und die Ableitung von L nach der Koordinate:");
+  say(d, PL_BOTH("Why: momentum, its time derivative, and the slope of L:"));
   show_tidy(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), v), p);
   show_tidy(d, pl_format(d->arena, "d/dt ∂%s/∂%s", pl_letter(d, "L"), v), rate);
   show_tidy(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), x), slope);
   if (!pl_is_zero_node(d->pool, rest)) show_tidy(d, pl_format(d->arena, "Q_%s", x), rest);
-  pl_say(d,
-         pl_is_zero_node(d->pool, rest)
-             ? "Their difference vanishes; common factors are left out:"
-             : "The derivative less the slope and {1} vanishes; common factors are left out:",
-         pl_is_zero_node(d->pool, rest)
-             ? "Die Differenz verschwindet; gemeinsame Faktoren sind weggelassen:"
-             : "Die Zeitableitung, vermindert um die Ableitung nach der Koordinate und um {1}, "
-               "verschwindet; gemeinsame Faktoren sind weggelassen:",
-         1, pl_fn(d, pl_format(d->arena, "Q_%s", x)))
+  pl_say(
+      d,
+      PL_BOTH(pl_is_zero_node(d->pool, rest)
+                  ? "Their difference vanishes; common factors are left out:"
+                  : "The derivative less the slope and {1} vanishes; common factors are left out:"),
+      1, pl_fn(d, pl_format(d->arena, "Q_%s", x)))
       ->detail = true;
 }
 
@@ -256,28 +242,27 @@ void pl_why_energy(pl_analysis* d, pl_expr E) {
                  pl_mul(d->pool, pl_sym(d->pool, d->q.at[i].v), tidy(d, pl_second_kind(d, i))));
   }
   if (pl_op_count(d->pool, sum) > longest_detail) return;
-  say(d,
-      "Why: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, and ∂L/∂t = 0. The brackets are Lagrange's "
-      "equations, which vanish on the motion:",
-      "Warum: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, und ∂L/∂t = 0. Die Klammern sind die "
-      "Lagrange-Gleichungen, auf der Bewegung null:");
+  say(d, PL_BOTH("Why: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, and ∂L/∂t = 0. The brackets are "
+                 "Lagrange's "
+                 "equations, which vanish on the motion:"));
   show(d, pl_format(d->arena, "d%s/dt", pl_letter(d, "E")), sum, pl_on_maps(d, pl_dt(d->pool, E)),
        false);
 }
 
 void pl_why_cyclic(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
-  pl_say(d,
-         lettered(d,
-                  "Why: {1} may be shifted, {1} → {1} + ε, without a change of L; to each such "
-                  "symmetry belongs a conserved quantity (Noether). Here "
-                  "Lagrange's equation of {1} is the time derivative of the momentum alone, since"),
-         lettered(d,
-                  "Warum: {1} darf verschoben werden, {1} → {1} + ε, ohne dass L sich ändert; zu "
-                  "jeder solchen Symmetrie gehört eine Erhaltungsgröße "
-                  "(Noether). Hier ist die Lagrange-Gleichung von {1} allein die Zeitableitung des "
-                  "Impulses, denn"),
-         1, pl_fs(d, c->q))
+  pl_say(
+      d,
+      lettered(d,
+               "Why: {1} may be shifted, {1} → {1} + ε, without a change of L; to each such "
+               "symmetry belongs a conserved quantity (Noether). Here "
+               "Lagrange's equation of {1} is the time derivative of the momentum alone, since"),
+      lettered(
+          d, pl_german(
+                 "Why: {1} may be shifted, {1} → {1} + ε, without a change of L; to each such "
+                 "symmetry belongs a conserved quantity (Noether). Here "
+                 "Lagrange's equation of {1} is the time derivative of the momentum alone, since")),
+      1, pl_fs(d, c->q))
       ->detail = true;
   show(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), name_of(d, c->q)), pl_int(d->pool, 0),
        pl_by_coordinate(d, d->Lg, i), false);
@@ -286,8 +271,7 @@ void pl_why_cyclic(pl_analysis* d, int i) {
 // ------------------------------------------------------------------------------------- integration
 void pl_why_uniform(pl_analysis* d, int i, pl_expr x) {
   const pl_variable* c = &d->q.at[i];
-  say(d, "Why: the acceleration is constant. Integrated once:",
-      "Warum: Die Beschleunigung ist konstant. Einmal integriert:");
+  say(d, PL_BOTH("Why: the acceleration is constant. Integrated once:"));
   pl_expr v = pl_diff(d->pool, x, pl_time(d->pool));
   show(d, pl_format(d->arena, "%s(t)", velocity_name(d, c)), tidy(d, v), v, false);
 }
@@ -306,18 +290,16 @@ void pl_why_linear(pl_analysis* d, int i, pl_expr A, pl_expr B, pl_expr C) {
   if (pl_op_count(p, characteristic) > longest_detail) return;
   if (!pl_is_zero_node(p, B) && !pl_is_zero_node(p, A)) {
     pl_expr rest = tidy(d, pl_neg(p, pl_div(p, A, B)));
-    pl_say(d, "Why: measured from the position of rest {1} the equation is homogeneous.",
-           "Warum: Von der Ruhelage {1} aus gemessen ist die Gleichung homogen.", 1,
-           pl_feq(d, pl_fe(d, x), pl_fe(d, rest)))
+    pl_say(d, PL_BOTH("Why: measured from the position of rest {1} the equation is homogeneous."),
+           1, pl_feq(d, pl_fe(d, x), pl_fe(d, rest)))
         ->detail = true;
     pl_claim_free(d, PL_CLAIM_OTHER, pl_add(p, A, pl_mul(p, B, rest)), pl_int(p, 0));
   }
-  pl_say(d,
-         "Why: the attempt e^(s t) solves it when {1}; two solutions, fitted to position and "
-         "velocity at t = 0:",
-         "Warum: Der Ansatz e^(s t) löst sie, wenn {1}; zwei Lösungen, angepasst an Ort und "
-         "Geschwindigkeit bei t = 0:",
-         1, pl_feq(d, pl_fe(d, characteristic), zero_form(d)))
+  pl_say(
+      d,
+      PL_BOTH("Why: the attempt e^(s t) solves it when {1}; two solutions, fitted to position and "
+              "velocity at t = 0:"),
+      1, pl_feq(d, pl_fe(d, characteristic), zero_form(d)))
       ->detail = true;
 }
 
@@ -342,36 +324,31 @@ void pl_why_linear_motion(pl_analysis* d, int i) {
   const pl_form* pole[PL_MAX_POLES];
   for (int k = 0; k < poles.n; k++) pole[k] = pole_form(d, &poles.at[k]);
   const char* x = name_of(d, d->q.at[i].q);
-  say(d,
-      "Why: the Laplace transform turns the equations with their start into linear ones for the "
-      "transforms; solved,",
-      "Warum: Die Laplace-Transformation macht aus den Gleichungen mit ihrem Start lineare für die "
-      "Transformierten; aufgelöst:");
+  say(d, PL_BOTH("Why: the Laplace transform turns the equations with their start into linear ones "
+                 "for the "
+                 "transforms; solved,"));
   if (pl_op_count(d->pool, transform) <= 2 * longest_detail) {
     pl_show(d,
             pl_feq(d, pl_fn(d, pl_format(d->arena, "%s(s)", x)), pl_f(d, transform, PL_S_QUOTIENT)))
         ->detail = true;
   }
   if (poles.n > 0) {
-    pl_say(d,
-           "Its denominator vanishes at {1}. Partial fractions: 1/(s² + ω²) is the transform of "
-           "sin(ω t)/ω, s/(s² + ω²) that of cos(ω t), "
-           "1/s² that of t.",
-           "Der Nenner verschwindet bei {1}. Partialbrüche: 1/(s² + ω²) ist die Transformierte von "
-           "sin(ω t)/ω, s/(s² + ω²) die von cos(ω t), "
-           "1/s² die von t.",
-           1, pl_flist(d, pole, poles.n))
+    pl_say(
+        d,
+        PL_BOTH(
+            "Its denominator vanishes at {1}. Partial fractions: 1/(s² + ω²) is the transform of "
+            "sin(ω t)/ω, s/(s² + ω²) that of cos(ω t), "
+            "1/s² that of t."),
+        1, pl_flist(d, pole, poles.n))
         ->detail = true;
   }
 }
 
 // ------------------------------------------------------------------------------------ oscillations
 void pl_why_oscillations(pl_analysis* d, const pl_expr* M, const pl_expr* K, int n) {
-  say(d,
-      "Why: with q = q0 + δ the equations to first order in δ are M δ'' + K δ = 0, M and K at the "
-      "position of rest:",
-      "Warum: Mit q = q0 + δ sind die Gleichungen in erster Ordnung in δ: M δ'' + K δ = 0, M und K "
-      "in der Ruhelage:");
+  say(d, PL_BOTH("Why: with q = q0 + δ the equations to first order in δ are M δ'' + K δ = 0, M "
+                 "and K at the "
+                 "position of rest:"));
   for (int r = 0; r < n; r++) {
     const pl_form** term = PL_ARRAY(d->arena, const pl_form*, 2 * n + 1);
     int m = 0;
@@ -394,8 +371,7 @@ void pl_why_oscillations(pl_analysis* d, const pl_expr* M, const pl_expr* K, int
     pl_show(d, pl_feq(d, m == 1 ? term[0] : pl_form_sum(d->arena, term, m), zero_form(d)))->detail =
         true;
   }
-  say(d, "δ = u cos(ω t) solves them when det(K - ω² M) = 0:",
-      "δ = u cos(ω t) löst sie, wenn det(K - ω² M) = 0:");
+  say(d, PL_BOTH("δ = u cos(ω t) solves them when det(K - ω² M) = 0:"));
 }
 
 // ------------------------------------------------------------------------------------------ series
@@ -409,16 +385,14 @@ void pl_why_series(pl_analysis* d, pl_expr f, pl_symbol variable, pl_expr to, in
   if (pl_is_poison(h) || pl_op_count(d->pool, h) > longest_detail) return;
   const char* v = name_of(d, variable);
   if (lead == 0) {
-    say(d, "Why: Taylor's formula, the coefficients are derivatives at the point of expansion:",
-        "Warum: Taylorsche Formel, die Koeffizienten sind Ableitungen an der Entwicklungsstelle:");
+    say(d,
+        PL_BOTH(
+            "Why: Taylor's formula, the coefficients are derivatives at the point of expansion:"));
   } else {
     pl_say(
         d,
-        pl_format(d->arena,
-                  "Why: the first power is {1}^%d; with it taken out, Taylor's formula:", lead),
-        pl_format(d->arena,
-                  "Warum: Die erste Potenz ist {1}^%d; nach ihrem Abspalten die Taylorsche Formel:",
-                  lead),
+        PL_BOTH_FORMAT(
+            d->arena, "Why: the first power is {1}^%d; with it taken out, Taylor's formula:", lead),
         1, pl_fe(d, x))
         ->detail = true;
   }

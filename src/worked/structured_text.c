@@ -60,14 +60,12 @@ static const pl_form* letters_form(pl_analysis* d, const pl_structure* s) {
 
 static void say_why(pl_analysis* d, const pl_structure* s, pl_symbol u, pl_expr closed) {
   if (pl_is_poison(closed)) {
-    pl_say(d, "Written out, {1} passes the limit of 3000 terms; shown in {2}:",
-           "Ausgeschrieben überschreitet {1} die Grenze von 3000 Termen; dargestellt durch {2}:", 2,
+    pl_say(d, PL_BOTH("Written out, {1} passes the limit of 3000 terms; shown in {2}:"), 2,
            pl_fs(d, u), letters_form(d, s));
     return;
   }
   long n = terms_of(d, closed);
-  pl_say(d, pl_format(d->arena, "{1} has %ld terms; shown in {2}:", n),
-         pl_format(d->arena, "{1} hat %ld Terme; dargestellt durch {2}:", n), 2, pl_fs(d, u),
+  pl_say(d, PL_BOTH_FORMAT(d->arena, "{1} has %ld terms; shown in {2}:", n), 2, pl_fs(d, u),
          letters_form(d, s));
 }
 
@@ -103,14 +101,10 @@ static void say_numbering(pl_analysis* d, const pl_structure* s) {
   for (int k = 0; k < s->n; k++) u[k] = pl_fs(d, s->u[k]);
   const char* letter = unknown_letter(s);
   pl_say(d,
-         pl_format(
+         PL_BOTH_FORMAT(
              d->arena,
              "Here %s_1 … %s_%d stand for {1}; i = k + 1, j = k - 1, and what is not listed is 0.",
              letter, letter, s->n),
-         pl_format(d->arena,
-                   "Dabei stehen %s_1 … %s_%d für {1}; i = k + 1, j = k - 1, und was nicht "
-                   "aufgeführt ist, ist 0.",
-                   letter, letter, s->n),
          1, pl_flist(d, u, s->n));
 }
 
@@ -133,31 +127,26 @@ static void show_general_row(pl_analysis* d, pl_structure* s) {
   const pl_form** u = PL_ARRAY(d->arena, const pl_form*, s->n);
   for (int k = 0; k < s->n; k++) u[k] = pl_fs(d, s->u[k]);
   const char* letter = unknown_letter(s);
-  pl_say(d,
-         pl_format(d->arena,
-                   "Sum over k; %s_1 … %s_%d stand for {1}. The matrix is symmetric, and what is "
-                   "not listed is 0.",
-                   letter, letter, s->n),
-         pl_format(d->arena,
-                   "Summe über k; %s_1 … %s_%d stehen für {1}. Die Matrix ist symmetrisch, und was "
-                   "nicht aufgeführt ist, ist 0.",
-                   letter, letter, s->n),
-         1, pl_flist(d, u, s->n));
+  pl_say(
+      d,
+      PL_BOTH_FORMAT(d->arena,
+                     "Sum over k; %s_1 … %s_%d stand for {1}. The matrix is symmetric, and what is "
+                     "not listed is 0.",
+                     letter, letter, s->n),
+      1, pl_flist(d, u, s->n));
 }
 
 static void show_system(pl_analysis* d, pl_structure* s) {
   switch (s->kind) {
     case PL_ST_MULTIPLIERS:
-      pl_say(d, "The equations of motion inserted into the differentiated constraints:",
-             "Die Bewegungsgleichungen in die differenzierten Zwangsbedingungen eingesetzt:", 0);
+      pl_say(d, PL_BOTH("The equations of motion inserted into the differentiated constraints:"),
+             0);
       break;
     case PL_ST_BOTH:
-      pl_say(d, "The equations of motion and the differentiated constraints together:",
-             "Die Bewegungsgleichungen und die differenzierten Zwangsbedingungen zusammen:", 0);
+      pl_say(d, PL_BOTH("The equations of motion and the differentiated constraints together:"), 0);
       break;
     case PL_ST_ACCELERATIONS:
-      pl_say(d, "The equations of motion are linear in the accelerations:",
-             "Die Bewegungsgleichungen sind linear in den Beschleunigungen:", 0);
+      pl_say(d, PL_BOTH("The equations of motion are linear in the accelerations:"), 0);
       break;
   }
   if (s->n <= rows_written_out) {
@@ -194,15 +183,13 @@ static void claim_entry(pl_analysis* d, const pl_naming* l) {
 static void show_entries(pl_analysis* d, const pl_structure* s) {
   bool many = s->n_entries > most_definitions;
   if (many) {
-    pl_say(
-        d,
-        pl_format(d->arena, "The %d entries stand in the JSON answer and here with --steps full.",
-                  s->n_entries),
-        pl_format(d->arena, "Die %d Einträge stehen in der JSON-Antwort und hier mit --steps full.",
-                  s->n_entries),
-        0);
+    pl_say(d,
+           PL_BOTH_FORMAT(d->arena,
+                          "The %d entries stand in the JSON answer and here with --steps full.",
+                          s->n_entries),
+           0);
   } else {
-    pl_say(d, "with", "mit", 0);
+    pl_say(d, PL_BOTH("with"), 0);
   }
   show_lines(d, s, 0, s->n_entries, many);
   for (int k = 0; k < s->n_entries; k++) claim_entry(d, &s->lines.at[k]);
@@ -212,8 +199,7 @@ static void show_entries(pl_analysis* d, const pl_structure* s) {
 static void show_chain_recursion(pl_analysis* d, const pl_structure* s) {
   const char *D = s->letter[3], *Y = s->letter[5], *B = s->letter[1], *u = unknown_letter(s);
   const pl_form* Bj = indexed(d, B, "j");
-  pl_say(d, pl_format(d->arena, "From the first row to the last, then backwards:"),
-         "Von der ersten Zeile zur letzten, dann zurück:", 0);
+  pl_say(d, PL_BOTH("From the first row to the last, then backwards:"), 0);
   pl_show(d, pl_feq(d, indexed(d, D, "k"),
                     minus(d, indexed(d, s->letter[0], "k"),
                           over(d, squared(d, Bj), indexed(d, D, "j")))));
@@ -230,10 +216,9 @@ static void show_general_recursion(pl_analysis* d, const pl_structure* s) {
              *u = unknown_letter(s);
   const pl_form *Di = indexed(d, D, "i"), *Cik = indexed(d, C, "ik"), *Cij = indexed(d, C, "ij");
   pl_say(d,
-         "From the first row to the last, then backwards (sums over i < k, in the last formula "
-         "over j > k):",
-         "Von der ersten Zeile zur letzten, dann zurück (Summen über i < k, in der letzten Formel "
-         "über j > k):",
+         PL_BOTH(
+             "From the first row to the last, then backwards (sums over i < k, in the last formula "
+             "over j > k):"),
          0);
   pl_show(d, pl_feq(d, indexed(d, D, "k"),
                     minus(d, indexed(d, S, "kk"), sigma(d, over(d, squared(d, Cik), Di)))));
@@ -256,7 +241,7 @@ static void show_recursion(pl_analysis* d, const pl_structure* s) {
   bool by_index = s->kind != PL_ST_BOTH && s->natural;
   if (by_index && s->chain) show_chain_recursion(d, s);
   else if (by_index) show_general_recursion(d, s);
-  else pl_say(d, "Row by row:", "Zeile für Zeile:", 0);
+  else pl_say(d, PL_BOTH("Row by row:"), 0);
   show_lines(d, s, s->n_entries, to, by_index);
 }
 
@@ -394,7 +379,7 @@ bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed) {
   bool again = shown_of(d, f.s)->told && shown_of(d, f.s)->section != d->page->solution->sections.n;
   tell(d, f.s, u, closed);
   if (again)
-    pl_say(d, "From {1}, solved over the names above:", "Aus {1}, mit den obigen Namen gelöst:", 1,
+    pl_say(d, PL_BOTH("From {1}, solved over the names above:"), 1,
            pl_fref(d, shown_of(d, f.s)->number));
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, u), f.form));
   pl_step_refs(step, 1, shown_of(d, f.s)->number);

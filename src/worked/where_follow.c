@@ -221,19 +221,17 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
     return;
   }
   if (f->lost >= 0) {
-    pl_say(d, "{1} lets go before, at {2}; beyond it the formulas do not hold.",
-           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2,
+    pl_say(d, PL_BOTH("{1} lets go before, at {2}; beyond it the formulas do not hold."), 2,
            pl_fn(d, p->contact[f->lost]), time_form(d, f->lost_at));
     return;
   }
   d->page->section->not_found = true;
   if (f->how == PL_FOLLOWED_PAST) {
-    pl_say(d, "As far as {1} this does not happen on the motion.",
-           "Bis {1} geschieht das während der Bewegung nicht.", 1, time_form(d, f->time));
+    pl_say(d, PL_BOTH("As far as {1} this does not happen on the motion."), 1,
+           time_form(d, f->time));
     return;
   }
-  pl_say(d, "No solution in closed form was found; for the given numbers:",
-         "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
+  pl_say(d, PL_BOTH("No solution in closed form was found; for the given numbers:"), 0);
   pl_show_met_number(d, p->name, f->asked);
 }
 
@@ -278,8 +276,7 @@ bool pl_say_event_before(pl_analysis* d, const pl_motion* motion, const pl_searc
   if (watched(&w, 0, y) == 0) return false;  // at the start already
   const pl_event* e = first_event(d, &w, motion, f.time, &time);
   if (!e) return false;
-  pl_say(d, "{1} comes before, at {2}; beyond it the formulas do not hold.",
-         "{1} tritt vorher ein, bei {2}; danach gelten die Formeln nicht.", 2,
+  pl_say(d, PL_BOTH("{1} comes before, at {2}; beyond it the formulas do not hold."), 2,
          pl_fn(d, e->name.text ? e->name.text : "event"), time_form(d, time));
   return true;
 }

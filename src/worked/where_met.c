@@ -235,11 +235,10 @@ static const pl_form* place_form(pl_analysis* d, const pl_search* p, double at) 
 static void say_turns(pl_analysis* d, const pl_search* p, const pl_course* c) {
   const pl_form* first = place_form(d, p, c->leg[0].to);
   if (c->n_legs > 2) {
-    pl_say(d, "It turns round at {1} and at {2}.", "Die Bewegung kehrt bei {1} und bei {2} um.", 2,
-           first, place_form(d, p, c->leg[1].to));
+    pl_say(d, PL_BOTH("It turns round at {1} and at {2}."), 2, first,
+           place_form(d, p, c->leg[1].to));
   } else {
-    pl_say(d, "It turns round at {1} and does not come back.",
-           "Die Bewegung kehrt bei {1} um und kommt nicht zurück.", 1, first);
+    pl_say(d, PL_BOTH("It turns round at {1} and does not come back."), 1, first);
   }
 }
 
@@ -258,47 +257,43 @@ static void say_never(pl_analysis* d, const pl_search* p, const pl_course* c) {
   const pl_leg* last = c->n_legs > 0 ? &c->leg[c->n_legs - 1] : NULL;
   bool searched = !last || last->end != PL_END_OPEN || p->place || no_root_beyond(d, p, c);
   if (!searched && !(p->line && pl_course_repeats(c, p->condition))) {
-    pl_say(d, "As far as {1} this does not happen on the motion.",
-           "Bis {1} geschieht das während der Bewegung nicht.", 1, place_form(d, p, last->to));
+    pl_say(d, PL_BOTH("As far as {1} this does not happen on the motion."), 1,
+           place_form(d, p, last->to));
     d->page->section->not_found = true;
     return;
   }
-  pl_say(d, "This never happens on the motion.", "Das geschieht während der Bewegung nie.", 0);
+  pl_say(d, PL_BOTH("This never happens on the motion."), 0);
   if (c->stays) {
-    pl_say(d, "It stays at rest at {1}.", "Das System bleibt bei {1} in Ruhe.", 1,
-           place_form(d, p, c->start));
+    pl_say(d, PL_BOTH("It stays at rest at {1}."), 1, place_form(d, p, c->start));
   } else if (c->n_legs > 1) {
     say_turns(d, p, c);
   }
   if (last && last->end == PL_END_REST) {
-    pl_say(d, "It approaches {1} without reaching it.",
-           "Die Bewegung nähert sich {1}, ohne diese Stelle zu erreichen.", 1,
-           place_form(d, p, last->to));
+    pl_say(d, PL_BOTH("It approaches {1} without reaching it."), 1, place_form(d, p, last->to));
   }
   if (last && last->end == PL_END_EDGE) {
-    pl_say(d, "It cannot go on beyond {1}.", "Über {1} hinaus geht die Bewegung nicht weiter.", 1,
-           place_form(d, p, last->to));
+    pl_say(d, PL_BOTH("It cannot go on beyond {1}."), 1, place_form(d, p, last->to));
   }
 }
 
 void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where) {
-  pl_say(d, "{1} is met before, at {2}; beyond it the formulas do not hold.",
-         "{1} wird vorher erreicht, bei {2}; danach gelten die Formeln nicht.", 2,
+  pl_say(d, PL_BOTH("{1} is met before, at {2}; beyond it the formulas do not hold."), 2,
          pl_fn(d, contact), where);
 }
 
 void pl_say_left_before(pl_analysis* d, const pl_form* side, const pl_form* where) {
-  pl_say(d,
-         "The motion leaves {1} before, at {2}: beyond it the formulas of this side do not hold.",
-         "Die Bewegung verlässt {1} vorher, bei {2}: danach gelten die Formeln dieser Seite nicht.",
-         2, side, where);
+  pl_say(
+      d,
+      PL_BOTH(
+          "The motion leaves {1} before, at {2}: beyond it the formulas of this side do not hold."),
+      2, side, where);
 }
 
 static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
   if (o->lost < 0) return false;
   if (p->side[o->lost] && o->at_once) {
-    pl_say(d, "The motion does not start where the formulas hold, {1}.",
-           "Die Bewegung beginnt nicht dort, wo die Formeln gelten, {1}.", 1, p->side[o->lost]);
+    pl_say(d, PL_BOTH("The motion does not start where the formulas hold, {1}."), 1,
+           p->side[o->lost]);
     return true;
   }
   if (p->side[o->lost]) {
@@ -309,16 +304,13 @@ static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
   if (p->open[o->lost]) {
     pl_say_met_before(d, p->contact[o->lost], place_form(d, p, o->lost_at));
   } else if (o->at_once) {
-    pl_say(
-        d,
-        "At this start {1} would have to pull: it lets go at once, and the formulas do not hold.",
-        "Bei diesem Start müsste {1} ziehen: der Kontakt löst sich sofort, und die Formeln gelten "
-        "nicht.",
-        1, contact);
+    pl_say(d,
+           PL_BOTH("At this start {1} would have to pull: it lets go at once, and the formulas do "
+                   "not hold."),
+           1, contact);
   } else {
-    pl_say(d, "{1} lets go before, at {2}; beyond it the formulas do not hold.",
-           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2, contact,
-           place_form(d, p, o->lost_at));
+    pl_say(d, PL_BOTH("{1} lets go before, at {2}; beyond it the formulas do not hold."), 2,
+           contact, place_form(d, p, o->lost_at));
   }
   return true;
 }
@@ -327,15 +319,14 @@ static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
 static void say_lost_anywhere(pl_analysis* d, const pl_search* p, int k) {
   const pl_form* what = p->side[k] ? p->side[k] : pl_fn(d, p->contact[k]);
   if (p->side[k]) {
-    pl_say(d, "The motion leaves {1} before: beyond it the formulas of this side do not hold.",
-           "Die Bewegung verlässt {1} vorher: danach gelten die Formeln dieser Seite nicht.", 1,
-           what);
+    pl_say(
+        d,
+        PL_BOTH("The motion leaves {1} before: beyond it the formulas of this side do not hold."),
+        1, what);
   } else if (p->open[k]) {
-    pl_say(d, "{1} is met before: beyond it the formulas do not hold.",
-           "{1} wird vorher erreicht: danach gelten die Formeln nicht.", 1, what);
+    pl_say(d, PL_BOTH("{1} is met before: beyond it the formulas do not hold."), 1, what);
   } else {
-    pl_say(d, "{1} lets go before: beyond it the formulas do not hold.",
-           "{1} löst sich vorher: danach gelten die Formeln nicht.", 1, what);
+    pl_say(d, PL_BOTH("{1} lets go before: beyond it the formulas do not hold."), 1, what);
   }
 }
 
@@ -385,8 +376,7 @@ static void show_way(pl_analysis* d, const pl_search* p, const rates* r, const o
   pl_expr condition = conditional ? condition_of(d, p, o, place) : pl_poison();
   pl_show_met(d, p->name, value, condition);
   if (conditional && pl_is_poison(condition)) {
-    pl_say(d, "This does not happen for all values of the given quantities.",
-           "Das geschieht nicht für alle Werte der gegebenen Größen.", 0);
+    pl_say(d, PL_BOTH("This does not happen for all values of the given quantities."), 0);
   }
 }
 
@@ -419,21 +409,19 @@ static void show_given(pl_analysis* d, const pl_search* p, const numeric* x, con
     return;
   }
   if (o->at.leg > 0)
-    pl_say(d, "Before that the motion turns round at {1}.", "Vorher kehrt die Bewegung bei {1} um.",
-           1, place_form(d, p, c->leg[0].to));
+    pl_say(d, PL_BOTH("Before that the motion turns round at {1}."), 1,
+           place_form(d, p, c->leg[0].to));
   double y;
   if (value_agrees(d, x, r, o, c, &y)) {
     show_way(d, p, r, o, false);
     return;
   }
   if (!isfinite(y)) {
-    pl_say(d, "No solution in closed form was found.",
-           "Eine geschlossene Lösung wurde nicht gefunden.", 0);
+    pl_say(d, PL_BOTH("No solution in closed form was found."), 0);
     d->page->section->not_found = true;
     return;
   }
-  pl_say(d, "No solution in closed form was found; for the given numbers:",
-         "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
+  pl_say(d, PL_BOTH("No solution in closed form was found; for the given numbers:"), 0);
   pl_show_met_number(d, p->name, y);
   d->page->section->not_found = true;
 }
@@ -463,8 +451,7 @@ static bool with_given_numbers(pl_analysis* d, const pl_search* p, const numeric
   bool one = left.kind == NEVER || (same && right.kind == NEVER)
              || (same && same_answer(x, &right, &c, &left, &other));
   if (!one && right.kind == MET && left.kind == MET) {
-    pl_say(d, "The motion may leave the equilibrium to either side:",
-           "Die Bewegung kann die Gleichgewichtslage nach beiden Seiten verlassen:", 0);
+    pl_say(d, PL_BOTH("The motion may leave the equilibrium to either side:"), 0);
   }
   if (right.kind == MET || one) show_given(d, p, x, r, &right, &c);
   if (!one) show_given(d, p, x, r, &left, &other);
@@ -504,22 +491,20 @@ static void show_drawn(pl_analysis* d, const pl_search* p, const rates* r, const
     return;
   }
   if (w->n == 0 && p->complete && p->n_roots == 0) {
-    pl_say(d, "This never happens on the motion.", "Das geschieht während der Bewegung nie.", 0);
+    pl_say(d, PL_BOTH("This never happens on the motion."), 0);
     return;
   }
   if (!any_closed(w)) {
-    pl_say(d,
-           w->n ? "No solution in closed form was found."
-                : "For none of the numbers that were tried does this happen on the motion.",
-           w->n ? "Eine geschlossene Lösung wurde nicht gefunden."
-                : "Für keine der versuchten Zahlen geschieht das während der Bewegung.",
-           0);
+    pl_say(
+        d,
+        PL_BOTH(w->n ? "No solution in closed form was found."
+                     : "For none of the numbers that were tried does this happen on the motion."),
+        0);
     d->page->section->not_found = true;
     return;
   }
   if (w->n > 1) {
-    pl_say(d, "What is met first hangs on the given quantities:",
-           "Was zuerst eintritt, hängt von den gegebenen Größen ab:", 0);
+    pl_say(d, PL_BOTH("What is met first hangs on the given quantities:"), 0);
   }
   for (int k = 0; k < w->n; k++) {
     if (w->at[k].root >= 0) show_way(d, p, r, &w->at[k], w->never > 0 || w->lost > 0 || w->n > 1);

@@ -57,10 +57,8 @@ static void note_friction(pl_analysis* d) {
   if (pl_knows_friction(d) || d->page->options->structure) return;
   pl_diagnostic* m = pl_report(
       d->job->diagnostics, PL_N091, d->model->frictions.at[0].span,
-      "friction is computed by the simulation, formulas are not derived with it",
-      "Reibung berechnet die Simulation, Formeln werden mit ihr nicht hergeleitet");
-  pl_report_fix(m, "without this line the formulas hold for smooth surfaces",
-                "ohne diese Zeile gelten die Formeln für glatte Flächen", NULL);
+      PL_BOTH("friction is computed by the simulation, formulas are not derived with it"));
+  pl_report_fix(m, PL_BOTH("without this line the formulas hold for smooth surfaces"), NULL);
 }
 
 static pleuel_status answer_all(pl_analysis* d) {
@@ -115,18 +113,16 @@ static pl_analysis** all_analyses(pl_analysis* first, int* n) {
   return out;
 }
 
-static const char* const claim_name[PL_N_CLAIMS + 1][2] = {
-    [PL_CLAIM_MOTION] = {"accelerations and multipliers against d'Alembert",
-                         "Beschleunigungen und Multiplikatoren gegen d'Alembert"},
-    [PL_CLAIM_ONE_TWO] = {"Lagrange I against II", "Lagrange I gegen II"},
-    [PL_CLAIM_MAP] = {"constraints vanish identically", "Zwangsbedingungen verschwinden identisch"},
-    [PL_CLAIM_ENERGY] = {"energies against the Cartesian ones", "Energien gegen die kartesischen"},
-    [PL_CLAIM_INSERTED] = {"solutions inserted", "Lösungen eingesetzt"},
-    [PL_CLAIM_OTHER] = {"other formulas", "weitere Formeln"},
-    [PL_N_CLAIMS] = {"units", "Einheiten"},
-};
-
 static void check_claims(pl_analysis* d) {
+  const char* const claim_name[PL_N_CLAIMS + 1][2] = {
+      [PL_CLAIM_MOTION] = {PL_BOTH("accelerations and multipliers against d'Alembert")},
+      [PL_CLAIM_ONE_TWO] = {PL_BOTH("Lagrange I against II")},
+      [PL_CLAIM_MAP] = {PL_BOTH("constraints vanish identically")},
+      [PL_CLAIM_ENERGY] = {PL_BOTH("energies against the Cartesian ones")},
+      [PL_CLAIM_INSERTED] = {PL_BOTH("solutions inserted")},
+      [PL_CLAIM_OTHER] = {PL_BOTH("other formulas")},
+      [PL_N_CLAIMS] = {PL_BOTH("units")},
+  };
   pl_claim_loops(d);
   pl_claims_check(d, &d->page->claims, claim_name, &d->page->solution->checks);
 }
