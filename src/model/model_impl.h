@@ -10,7 +10,7 @@
 // ------------------------------------------------------------------------------------------ bare.c
 void pl_dress_bare_numbers(pl_model* m);  // w - 0.5 with w a length: 0.5 m
 
-// -------------------------------------------------------------------------------------- traverse.c
+// ----------------------------------------------------------------------------------------- visit.c
 // Every expression of a model, with the kind of place it stands in.
 typedef enum pl_slot_kind {
   PL_SLOT_PARAM,
@@ -39,12 +39,14 @@ typedef struct pl_slot {
   pl_span span;
 } pl_slot;
 typedef void pl_slot_visit(void* user, const pl_slot* slot);
+void pl_model_each_slot(pl_model* m, pl_slot_visit* visit, void* user);
+
+// ---------------------------------------------------------------------------------------- occurs.c
 bool pl_is_constant_known(const pl_pool* p, pl_map* known, pl_expr e);
 // 1: velocities occur, 2: accelerations
 int pl_max_dots(const pl_pool* p, pl_expr e, pl_arena* scratch);
 // a coordinate or its derivatives occur
 bool pl_has_coordinate(const pl_pool* p, pl_expr e, pl_arena* scratch);
-void pl_model_each_slot(pl_model* m, pl_slot_visit* visit, void* user);
 
 // ----------------------------------------------------------------------------------------- words.c
 // Looks for a name in the text of a span, in any of its spellings (θ, theta; m1, m_1, m₁). false:
@@ -68,7 +70,7 @@ typedef struct pl_index_values {
 pl_index_values pl_index_values_make(const pl_model* m, pl_arena* a);
 bool pl_index_eval(const pl_index_values* v, pl_expr e, long* out);
 // Calls visit for every instance of a block, outer index slowest, with the indices set in v. Stops
-// when visit says so.
+// when visit says so. visit NULL: the instances are only counted off the budget.
 typedef bool pl_instance_visit(void* user, pl_index_values* v);
 typedef enum pl_walk_result {
   PL_WALK_DONE,
@@ -81,10 +83,9 @@ pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_
                              void* user, long* budget, const pl_block** culprit);
 // more than this is refused: indices alone would take a gigabyte
 enum { PL_MAX_INSTANCES = 20000000 };
-// visit NULL: the instances are only counted off the budget.
-// false: some family has no size; it has been told
-bool pl_check_sizes(pl_job* job, pl_model* m);
-void pl_check_families(pl_job* job, pl_model* m);
+// The same at the two ends of the innermost loop only.
+pl_walk_result pl_block_walk_ends(const pl_block* b, pl_index_values* v, pl_instance_visit* visit,
+                                  void* user, long* budget);
 // Which members of a family were given: key names the family, owner who gives it. pl_index_sets_add
 // returns the owner that gave one of them before, -1 if none did; index poison: the family is one
 // thing without index.
@@ -102,7 +103,7 @@ int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_bl
 void pl_check_dimensions(pl_job* job, pl_model* m);
 void pl_find_torques(pl_model* m);  // among what is given: N m, not J         torques.c
 void pl_classify_symbols(pl_model* m);
-void pl_strip_units(pl_model* m);
+void pl_strip_units(pl_model* m);  // strip_units.c
 // also before the check is over
 bool pl_known_dimension(const pl_model* m, pl_expr e, pl_dimension* out);
 
@@ -120,6 +121,9 @@ pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g,
                                      const char** integral);
 
 // ------------------------------------------------------------------------------------------- check
+// false: some family has no size; it has been told
+bool pl_check_sizes(pl_job* job, pl_model* m);
+void pl_check_families(pl_job* job, pl_model* m);
 void pl_check_names(pl_job* job, pl_model* m);
 void pl_check_structure(pl_job* job, pl_model* m);
 void pl_check_numbers(pl_job* job, pl_model* m);
@@ -130,6 +134,7 @@ void pl_check_requests(pl_job* job, pl_model* m);
 void pl_check_use(pl_job* job, pl_model* m);
 void pl_check_reading(pl_job* job, pl_model* m);
 
+// ------------------------------------------------------------------------------------------ tell.c
 // An expression as a reader writes it, in one line: "x' sin φ".
 const char* pl_expr_words(pl_arena* a, pl_pool* p, pl_expr e);
 // Reports with sentences formatted in both languages.
