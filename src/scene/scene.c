@@ -98,12 +98,6 @@ static void find_values(pl_stage* s) {
   for (int i = 0; i < s->n_value; i++) s->value[i] = i < n ? known[i] : (double)NAN;
 }
 
-pl_part* pl_stage_add(pl_stage* s, pl_shape_kind kind, const char* label, const char* of) {
-  pl_part p = {.kind = kind, .label = label ? label : "", .of = of ? of : "", .n = 2};
-  pl_push(s->arena, s->parts, p);
-  return &s->parts.at[s->parts.n - 1];
-}
-
 // ----------------------------------------------------------------------- parts of things and loads
 static void add_things(pl_stage* s) {
   for (int i = 0; i < s->things.n; i++) {

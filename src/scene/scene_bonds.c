@@ -11,24 +11,7 @@ enum { SAMPLES = 3, FIT_SAMPLES = 16 };
 // of numerical gradients: central differences leave some 1e-9
 static const double parallel_tol = 1e-5;
 
-// ------------------------------------------------------------------------------------ trial points
-void pl_coords_keep(const pl_stage* s, double* kept) {
-  for (int k = 0; k < s->n_q; k++) kept[k] = s->value[s->q[k].id];
-}
-void pl_coords_back(pl_stage* s, const double* kept) {
-  for (int k = 0; k < s->n_q; k++) s->value[s->q[k].id] = kept[k];
-}
-
-// Random coordinates; those held at a constant stay.
-void pl_coords_shuffle(pl_stage* s, const int* q, int n) {
-  double size = s->size > 0 ? s->size : 1;
-  for (int i = 0; i < n; i++) {
-    if (s->settled[q[i]]) continue;
-    s->value[s->q[q[i]].id] = s->angle[q[i]] ? pl_random_between(&s->random, -1.4, 1.4)
-                                             : size * pl_random_between(&s->random, 0.2, 1.3);
-  }
-}
-
+// --------------------------------------------------------------------------------------- gradients
 static double derivative(pl_stage* s, double (*f)(pl_stage*, const void*), const void* what,
                          int k) {
   double* x = &s->value[s->q[k].id];
@@ -45,23 +28,7 @@ static double value_of(pl_stage* s, const void* what) {
   return pl_stage_eval(s, *(const pl_expr*)what);
 }
 
-double pl_squared_distance(pl_stage* s, const void* what) {
-  const pl_spot* const* pair = what;
-  double a[3], b[3], sum = 0;
-  pl_stage_spot(s, pair[0], a);
-  pl_stage_spot(s, pair[1], b);
-  for (int j = 0; j < 3; j++) sum += (a[j] - b[j]) * (a[j] - b[j]);
-  return sum;
-}
-
 // ------------------------------------------------------------------------------------------- bonds
-bool pl_list_has(const int* list, int n, int x) {
-  for (int i = 0; i < n; i++) {
-    if (list[i] == x) return true;
-  }
-  return false;
-}
-
 static bool within(const pl_stage* s, const pl_bond* b, const pl_thing* t) {
   for (int i = 0; i < b->deps.n; i++) {
     if (!pl_list_has(t->deps.at, t->deps.n, b->deps.at[i]) && !s->settled[b->deps.at[i]])

@@ -131,21 +131,29 @@ double pl_stage_length(const pl_stage* s);  // typical size of the given lengths
 // ---- scene_things.c: what has a place
 void pl_stage_things(pl_stage* s);
 void pl_stage_bodies(pl_stage* s);  // outlines, after the bonds were looked at
+bool pl_list_has(const int* list, int n, int x);
 void pl_collect_coords(pl_stage* s, pl_expr e, int** deps, int* n, bool* timed);
 void pl_stage_space(pl_stage* s);  // lo, hi, size
+
+// ---- scene_parts.c: parts that several files add
+pl_part* pl_stage_add(pl_stage* s, pl_shape_kind kind, const char* label, const char* of);
+void pl_add_rod(pl_stage* s, pl_shape_kind kind, const pl_bond* b, const pl_spot* from,
+                const pl_spot* to);
+void pl_add_pivot(pl_stage* s, const double x[3]);
 
 // ---- scene_draw.c: what the model says about its picture
 void pl_stage_draws(pl_stage* s);
 
 // ---- scene_bonds.c: what constraints look like
 void pl_stage_bonds(pl_stage* s);
+
+// ---- scene_trial.c: other values of the coordinates
 void pl_coords_keep(const pl_stage* s, double* kept);  // (n_q)
 void pl_coords_back(pl_stage* s, const double* kept);
 // random values; what is held at a constant stays
 void pl_coords_shuffle(pl_stage* s, const int* q, int n);
 // of two spots: const pl_spot* what[2]
 double pl_squared_distance(pl_stage* s, const void* what);
-bool pl_list_has(const int* list, int n, int x);
 
 // ---- scene_hints.c
 pl_hint pl_hint_of(const char* label);
@@ -153,9 +161,6 @@ bool pl_radius_is_length(const pl_stage* s, const pl_bond* b, double radius);
 
 // ---- scene_rods.c
 void pl_stage_rods(pl_stage* s);  // distances that the places themselves keep
-void pl_add_rod(pl_stage* s, pl_shape_kind kind, const pl_bond* b, const pl_spot* from,
-                const pl_spot* to);
-void pl_add_pivot(pl_stage* s, const double x[3]);
 
 // ---- scene_ropes.c
 void pl_stage_ropes(pl_stage* s);
@@ -199,7 +204,6 @@ void pl_stage_arrows(pl_stage* s);
 // ---- scene_words.c
 void pl_stage_words(pl_stage* s, pl_scene* scene);
 
-pl_part* pl_stage_add(pl_stage* s, pl_shape_kind kind, const char* label, const char* of);
 pl_spot pl_spot_fixed(const double x[3]);
 pl_spot pl_spot_of(const pl_stage* s, const pl_point* point);
 // Solves A x = b (n x n, row-major, n <= 8) in the least-squares sense of smallest x where it can;

@@ -18,6 +18,13 @@ pl_spot pl_spot_of(const pl_stage* s, const pl_point* point) {
   return p;
 }
 
+bool pl_list_has(const int* list, int n, int x) {
+  for (int i = 0; i < n; i++) {
+    if (list[i] == x) return true;
+  }
+  return false;
+}
+
 // Coordinates that occur in e, added to those there are.
 void pl_collect_coords(pl_stage* s, pl_expr e, int** deps, int* n, bool* timed) {
   if (pl_is_poison(e)) return;
