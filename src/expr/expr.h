@@ -138,7 +138,7 @@ bool pl_is_measure(const pl_pool* p, pl_expr e);  // e is a number with its unit
 pl_expr pl_without_measures(pl_pool* p, pl_expr e);
 
 // Construction
-pl_expr pl_poison(void);
+static inline pl_expr pl_poison(void) { return (pl_expr){0}; }
 pl_expr pl_int(pl_pool* p, long n);
 pl_expr pl_ratio(pl_pool* p, long num, long den);
 // "9.81", "1e-3", "3/4": exact

@@ -2,6 +2,7 @@
 #ifndef PL_EXPR_IMPL_H
 #define PL_EXPR_IMPL_H
 
+#include <assert.h>
 #include <gmp.h>
 
 #include "expr/expr.h"
@@ -123,7 +124,10 @@ static inline pl_expr pl_exponent_of(const pl_pool* p, pl_expr e) {
 // All take PL_NUMBER nodes or poison. Poison when a result is too large (PL_NUMBER_LIMBS); callers
 // keep it symbolic if they can.
 enum { PL_NUMBER_LIMBS = 1 << 14, PL_POWER_BITS = 1 << 16 };
-const pl_number* pl_number_of(const pl_pool* p, pl_expr e);
+static inline const pl_number* pl_number_of(const pl_pool* p, pl_expr e) {
+  assert(pl_node_at(p, e)->kind == PL_NUMBER);
+  return pl_node_at(p, e)->u.number;
+}
 pl_expr pl_number_add(pl_pool* p, pl_expr a, pl_expr b);
 pl_expr pl_number_mul(pl_pool* p, pl_expr a, pl_expr b);
 pl_expr pl_number_inv(pl_pool* p, pl_expr a);          // poison for 0

@@ -11,11 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-const pl_number* pl_number_of(const pl_pool* p, pl_expr e) {
-  assert(pl_kind_of(p, e) == PL_NUMBER);
-  return pl_node_at(p, e)->u.number;
-}
-
 // ----------------------------------------------------------------------------------- small numbers
 static uint64_t magnitude(int64_t x) { return x < 0 ? 0 - (uint64_t)x : (uint64_t)x; }
 
@@ -576,8 +571,8 @@ pl_expr pl_number_from_text(pl_pool* p, const char* text, size_t n) {
   if (at < end && *at == '/') {
     at++;
     if (!read_decimal(&at, end, digits, &n_digits, &power)) return pl_poison();
-    e = pl_div(p, e, decimal(p, digits, n_digits, power));
+    e = pl_number_mul(p, e, pl_number_inv(p, decimal(p, digits, n_digits, power)));
   }
   if (at != end) return pl_poison();
-  return minus ? pl_neg(p, e) : e;
+  return minus ? pl_number_mul(p, p->minus_one, e) : e;
 }

@@ -195,11 +195,11 @@ pl_pool* pl_pool_make(pl_arena* a) {
   // node 0 is poison, and not in the table
   reserve_node(p);
   add_node(p, (pl_node){.kind = PL_POISON});
-  p->zero = pl_int(p, 0);
-  p->one = pl_int(p, 1);
-  p->minus_one = pl_int(p, -1);
-  p->two = pl_int(p, 2);
-  p->half = pl_ratio(p, 1, 2);
+  p->zero = pl_number_make(p, &(pl_number){.num = 0, .den = 1});
+  p->one = pl_number_make(p, &(pl_number){.num = 1, .den = 1});
+  p->minus_one = pl_number_make(p, &(pl_number){.num = -1, .den = 1});
+  p->two = pl_number_make(p, &(pl_number){.num = 2, .den = 1});
+  p->half = pl_number_make(p, &(pl_number){.num = 1, .den = 2});
   p->pi = pl_node_make(p, PL_PI, 0, 0, 0, NULL, 0);
   return p;
 }

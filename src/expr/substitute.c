@@ -81,3 +81,22 @@ pl_expr pl_subst_expr(pl_pool* p, pl_expr e, pl_expr from, pl_expr to) {
   if (from.id == 0) return e;
   return substitute(p, e, &(plan){.from = from, .to = to});
 }
+
+// ------------------------------------------------------------------------------ numbers with units
+bool pl_is_measure(const pl_pool* p, pl_expr e) {
+  return pl_kind_of(p, e) == PL_SYMBOL
+         && !pl_is_poison(pl_symbol_get(p, pl_symbol_of(p, e))->number);
+}
+
+pl_expr pl_without_measures(pl_pool* p, pl_expr e) {
+  if (pl_is_poison(e)) return e;
+  int n = pl_symbols_in(p, e, NULL, 0), n_measures = 0;
+  pl_symbol* s = PL_ARRAY(p->arena, pl_symbol, n + 1);
+  pl_replace* r = PL_ARRAY(p->arena, pl_replace, n + 1);
+  pl_symbols_in(p, e, s, n);
+  for (int i = 0; i < n; i++) {
+    pl_expr number = pl_symbol_get(p, s[i])->number;
+    if (!pl_is_poison(number)) r[n_measures++] = (pl_replace){s[i], number};
+  }
+  return n_measures ? pl_subst(p, e, r, n_measures) : e;
+}
