@@ -131,3 +131,37 @@ pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument)
   }
   return status;
 }
+
+typedef struct pl_working {
+  pl_api_work* work;
+  void* argument;
+} pl_working;
+
+// Each arena has a guard of its own; whichever runs out, the model is left as broken.
+static pleuel_status in_work(pleuel_model* m, void* argument) {
+  const pl_working* w = argument;
+  volatile pleuel_status status = PLEUEL_NO_MEMORY;
+  volatile bool done = false;
+  pl_guard work, motion, recorded;
+  pl_arena_rewind(m->work, m->work_empty);
+  m->job.arena = m->work;
+  PL_GUARD(m->recorded_in, recorded) {
+    PL_GUARD(m->motion, motion) {
+      PL_GUARD(m->work, work) {
+        status = w->work(m, w->argument);
+        done = true;
+      }
+      pl_guard_end(m->work, &work);
+    }
+    pl_guard_end(m->motion, &motion);
+  }
+  pl_guard_end(m->recorded_in, &recorded);
+  m->job.arena = m->arena;
+  m->broken = m->broken || !done;
+  return status;
+}
+
+pleuel_status pl_api_worked(pleuel_model* m, pl_api_work* work, void* argument) {
+  pl_working w = {work, argument};
+  return pl_api_guarded(m, in_work, &w);
+}

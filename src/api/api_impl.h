@@ -49,6 +49,11 @@ struct pleuel_model {
   pleuel_allocator alloc;       // a copy; take NULL: malloc and free
   pleuel_model *before, *next;  // list of the context
   pl_arena* arena;
+  // what is made for one call and the texts that it hands out; emptied when the next one begins
+  pl_arena* work;
+  pl_arena* motion;       // of the last run, and what it found; emptied when the next run begins
+  pl_arena* recorded_in;  // of the recording; emptied when it is recorded anew
+  pl_mark work_empty, motion_empty, recorded_empty;
   pl_job job;
   pl_diagnostics diagnostics;
   const char* name;
@@ -101,6 +106,8 @@ pleuel_status pl_api_give(void* to, const void* all, size_t size);
 typedef pleuel_status pl_api_work(pleuel_model* m, void* argument);
 // Runs work under a guard.  Status and sentence of the job become those of the context.
 pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument);
+// The same for calls that make a text or a motion: the job works in m->work, which is emptied first.
+pleuel_status pl_api_worked(pleuel_model* m, pl_api_work* work, void* argument);
 pl_language pl_api_language(const char* name, pl_language otherwise);
 // What is asked for, else what the file names, else what the context speaks.
 pl_language pl_api_language_of(const pleuel_model* m, const char* asked);
@@ -116,6 +123,8 @@ pleuel_status pl_pipeline_check(pleuel_model* m);
 pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds, bool along);
 pleuel_status pl_pipeline_structure(pleuel_model* m);  // freedoms, ranks and notes only
 pleuel_status pl_pipeline_record(pleuel_model* m);
+// The memory of the last run is emptied; what is known of it is forgotten.
+void pl_pipeline_forget_run(pleuel_model* m);
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out);
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
 

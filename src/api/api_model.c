@@ -96,6 +96,31 @@ static pleuel_status load(pleuel_model* m, void* argument) {
   return pl_pipeline_parse(m);
 }
 
+void pl_model_keep(pleuel_model* m) { atomic_fetch_add(&m->owners, 1); }
+
+void pl_model_drop(pleuel_model* m) {
+  if (atomic_fetch_sub(&m->owners, 1) == 1) pl_arena_free(m->arena);
+}
+
+static void free_work(pleuel_model* m) {
+  pl_arena_free(m->work);
+  pl_arena_free(m->motion);
+  pl_arena_free(m->recorded_in);
+}
+
+static bool make_work(pleuel_model* m, const pleuel* ctx) {
+  m->work = pl_arena_make(ctx->alloc);
+  m->motion = m->work ? pl_arena_make(ctx->alloc) : NULL;
+  m->recorded_in = m->motion ? pl_arena_make(ctx->alloc) : NULL;
+  if (!m->recorded_in) return false;
+  pl_arena* all[] = {m->work, m->motion, m->recorded_in};
+  for (int i = 0; ctx->limit && i < 3; i++) pl_arena_limit(all[i], ctx->limit);
+  m->work_empty = pl_arena_mark(m->work);
+  m->motion_empty = pl_arena_mark(m->motion);
+  m->recorded_empty = pl_arena_mark(m->recorded_in);
+  return true;
+}
+
 // Makes an empty model; NULL when memory is short.
 static pleuel_model* model_make(pleuel* ctx, const char* name) {
   pl_arena* arena = pl_arena_make(ctx->alloc);
@@ -119,7 +144,8 @@ static pleuel_model* model_make(pleuel* ctx, const char* name) {
   }
   pl_guard_end(arena, &guard);
   pleuel_model* m = made;
-  if (!m) {
+  if (!m || !make_work(m, ctx)) {
+    if (m) free_work(m);
     pl_arena_free(arena);
     return NULL;
   }
@@ -172,12 +198,6 @@ pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* pa
   return load_model(ctx, model, &l, o.name ? o.name : path);
 }
 
-void pl_model_keep(pleuel_model* m) { atomic_fetch_add(&m->owners, 1); }
-
-void pl_model_drop(pleuel_model* m) {
-  if (atomic_fetch_sub(&m->owners, 1) == 1) pl_arena_free(m->arena);
-}
-
 void pleuel_model_free(pleuel_model* m) {
   if (!m || !m->ctx) return;
   if (m->solution) pl_solution_close(m->solution);
@@ -188,6 +208,7 @@ void pleuel_model_free(pleuel_model* m) {
   else m->ctx->first = m->next;
   if (m->next) m->next->before = m->before;
   m->ctx = NULL;
+  free_work(m);
   pl_model_drop(m);
 }
 

@@ -23,10 +23,10 @@ static pleuel_status look_at_start(pleuel_model* m) {
   if (!m->model->simulate.given && m->model->inits.n == 0) return PLEUEL_OK;
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   pl_run* run = NULL;
-  m->result = NULL;
+  pl_pipeline_forget_run(m);
   m->run = pl_pipeline_start(m, &how, &run);
   if (run) {
-    m->result = pl_result_make(m->arena, false);
+    m->result = pl_result_make(m->motion, false);
     m->result->stats = *pl_run_stats(run);
     pl_run_free(run);
   }
@@ -46,7 +46,7 @@ static pleuel_status check(pleuel_model* m) {
 static pleuel_status check_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pleuel_status s = check(m);
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   if (s == PLEUEL_OK) pl_check_summary(&out, m, pl_api_language_of(m, a->text->lang));
   a->answer = pl_text_string(&out);
   return s;
@@ -55,7 +55,7 @@ static pleuel_status check_text(pleuel_model* m, void* argument) {
 static pleuel_status check_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pleuel_status s = check(m);
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_json_input in = {.file = m->name,
                       .model = m->model,
                       .solution = m->solution,
@@ -75,7 +75,7 @@ static pleuel_status ask_text(pleuel_model* m, const char** text,
   pleuel_text_options o;
   PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pl_asking a = {.text = &o};
-  pleuel_status s = pl_api_guarded(m, work, &a);
+  pleuel_status s = pl_api_worked(m, work, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -100,7 +100,7 @@ static void simulate_for_solution(pleuel_model* m, const pleuel_solve_options* o
   m->is_run = false;
   m->result = NULL;
   if (o->no_simulation || !m->model->simulate.given) return;
-  int n = pl_model_flat_coords(m->model, m->arena).n;
+  int n = pl_model_flat_coords(m->model, m->work).n;
   if (n > MAX_COORDINATES_IN_SOLUTION) {
     m->is_run = true;
     m->run = PLEUEL_UNSUPPORTED;
@@ -157,7 +157,7 @@ static pl_math math_of(pleuel_math m) {
 // The solution does not hang on the start values, but a start that contradicts the constraints has
 // to be said. That several positions fit, or that numbers are missing, matters to the motion alone.
 static pleuel_status contradictory_start(pleuel_model* m) {
-  if (m->is_run || pl_model_flat_coords(m->model, m->arena).n > MAX_COORDINATES_IN_SOLUTION)
+  if (m->is_run || pl_model_flat_coords(m->model, m->work).n > MAX_COORDINATES_IN_SOLUTION)
     return PLEUEL_OK;
   char sentence[sizeof m->job.message];
   memcpy(sentence, m->job.message, sizeof sentence);
@@ -186,10 +186,10 @@ static pleuel_status solve_text(pleuel_model* m, void* argument) {
                            .full = o->full,
                            .width = o->width,
                            .only = o->only};
-  pl_text motion = pl_text_make(m->arena);
+  pl_text motion = pl_text_make(m->work);
   if (m->is_run) pl_motion_text(&motion, m, style.lang, style.math == PL_MATH_ASCII, false);
   if (m->is_run) style.motion = pl_text_string(&motion);
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_worked_text(&out, m->solution, &m->diagnostics, &style);
   a->answer = pl_text_string(&out);
   return verdict(m, s);
@@ -212,7 +212,7 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (m->solution) simulate_for_solution(m, o);
   if (m->solution && s == PLEUEL_OK) s = contradictory_start(m);
-  pl_text simulation = pl_text_make(m->arena);
+  pl_text simulation = pl_text_make(m->work);
   if (m->is_run) pl_motion_json(&simulation, m);
   s = verdict(m, s);
   pl_json_input in = {
@@ -224,11 +224,11 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
       .message = m->job.message,
       .lang = pl_api_language_of(m, o->lang),
       .only = o->only,
-      .simulation = m->is_run ? indented(m->arena, pl_text_string(&simulation)) : NULL,
+      .simulation = m->is_run ? indented(m->work, pl_text_string(&simulation)) : NULL,
       .n_timing = o->timing ? PL_N_STAGES : 0,
       .timing_name = stages,
       .timing_ms = m->stage_ms};
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_worked_json(&out, &in);
   a->answer = pl_text_string(&out);
   return s;
@@ -243,7 +243,7 @@ static pleuel_status ask_solution(pleuel_model* m, const char** text,
   if ((unsigned)o.math > PLEUEL_MATH_ASCII || o.width < 0)
     return pl_api_fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
   pl_asking a = {.solve = &o};
-  pleuel_status s = pl_api_guarded(m, work, &a);
+  pleuel_status s = pl_api_worked(m, work, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -268,7 +268,7 @@ static pleuel_status export(pleuel_model* m, void* argument) {
   pleuel_status s = pl_pipeline_derive(m, a->solve->only, a->solve->seconds, false);
   if (!m->solution || s != PLEUEL_OK) return s;
   in.solution = m->solution;
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_export(&out, &in);
   a->answer = pl_text_string(&out);
   bool is_run = m->is_run;
@@ -285,7 +285,7 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
   pleuel_solve_options o;
   PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pl_asking a = {.solve = &o, .word = target};
-  pleuel_status s = pl_api_guarded(m, export, &a);
+  pleuel_status s = pl_api_worked(m, export, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -306,10 +306,10 @@ static pleuel_status tex(pleuel_model* m, void* argument) {
   PLEUEL_OPTIONS(pleuel_solve_options, how);
   how.no_simulation = o->no_simulation;
   simulate_for_solution(m, &how);
-  pl_text motion = pl_text_make(m->arena);
+  pl_text motion = pl_text_make(m->work);
   if (m->is_run) pl_motion_text(&motion, m, style.lang, false, false);
   if (m->is_run) style.motion = pl_text_string(&motion);
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_tex(&out, m->solution, &m->diagnostics, &style);
   a->answer = pl_text_string(&out);
   return verdict(m, s);
@@ -321,7 +321,7 @@ pleuel_status pleuel_tex(pleuel_model* m, const char** text, const pleuel_tex_op
   pleuel_tex_options o;
   PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pl_asking a = {.tex = &o};
-  pleuel_status s = pl_api_guarded(m, tex, &a);
+  pleuel_status s = pl_api_worked(m, tex, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -349,7 +349,7 @@ pleuel_status pleuel_report(pleuel_model* m, const char** html,
   if ((unsigned)o.data > PLEUEL_DATA_FULL)
     return pl_api_fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
   pl_reporting r = {&o, NULL};
-  pleuel_status s = pl_api_guarded(m, report, &r);
+  pleuel_status s = pl_api_worked(m, report, &r);
   if (html) *html = r.html;
   return s;
 }
@@ -386,7 +386,7 @@ pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n,
                        "a plot is SVG, PNG or PDF, at most 8192 pixels wide and high");
   }
   pl_picturing p = {.plot = &o};
-  pleuel_status s = pl_api_guarded(m, plot, &p);
+  pleuel_status s = pl_api_worked(m, plot, &p);
   *bytes = p.bytes;
   *n = p.n;
   return s;
@@ -413,7 +413,7 @@ pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n,
         "per second");
   }
   pl_picturing p = {.animate = &o};
-  pleuel_status s = pl_api_guarded(m, animate, &p);
+  pleuel_status s = pl_api_worked(m, animate, &p);
   *bytes = p.bytes;
   *n = p.n;
   return s;
@@ -433,7 +433,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary,
   if (!m) return PLEUEL_USAGE;
   pleuel_sim_options o;
   PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
-  pleuel_status s = pl_api_guarded(m, simulate, &o);
+  pleuel_status s = pl_api_worked(m, simulate, &o);
   const pl_result* r = m->broken ? NULL : m->result;
   if (summary && r) {
     *summary = (pleuel_sim_summary){.t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN,
@@ -452,7 +452,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary,
 
 static pleuel_status simulation_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   if (m->is_run)
     pl_motion_text(&out, m, pl_api_language_of(m, a->text->lang), false, a->text->terse);
   a->answer = pl_text_string(&out);
@@ -461,7 +461,7 @@ static pleuel_status simulation_text(pleuel_model* m, void* argument) {
 
 static pleuel_status simulation_engine(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   if (m->is_run) pl_engine_text(&out, m, pl_api_language_of(m, a->text->lang));
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
@@ -469,7 +469,7 @@ static pleuel_status simulation_engine(pleuel_model* m, void* argument) {
 
 static pleuel_status simulation_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_motion_json(&out, m);
   pl_text_add(&out, "\n");
   a->answer = pl_text_string(&out);
@@ -510,14 +510,14 @@ pleuel_status pleuel_format(pleuel_model* m, const char** text, pleuel_spelling 
   if (text) *text = NULL;
   if (!m || (unsigned)spelling > PLEUEL_SPELL_ASCII) return PLEUEL_USAGE;
   pl_asking a = {.spelling = spelling};
-  pleuel_status s = pl_api_guarded(m, format, &a);
+  pleuel_status s = pl_api_worked(m, format, &a);
   if (text && s == PLEUEL_OK) *text = a.answer;
   return s;
 }
 
 static pleuel_status dump(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pleuel_status s;
   if (strcmp(a->word, "check") == 0) {
     s = pl_pipeline_check(m);
@@ -539,7 +539,7 @@ pleuel_status pleuel_dump(pleuel_model* m, const char** text, const char* after)
   if (text) *text = NULL;
   if (!m || !after) return PLEUEL_USAGE;
   pl_asking a = {.word = after};
-  pleuel_status s = pl_api_guarded(m, dump, &a);
+  pleuel_status s = pl_api_worked(m, dump, &a);
   if (text) *text = a.answer;
   return s;
 }

@@ -48,16 +48,16 @@ static pl_certify_refusal refusal_of(const pleuel_model* m, const char** name) {
 void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run* run) {
   if (!o->certify) return;
   const pl_setup* s = &m->recording->setup;
-  pl_certificate_of_run* c = PL_NEW(m->arena, pl_certificate_of_run);
+  pl_certificate_of_run* c = PL_NEW(m->motion, pl_certificate_of_run);
   c->n_q = s->n_q;
   c->n_c = s->n_c;
   c->proof = (pl_certified){
       .end = PL_CERTIFY_TOO_LARGE, .t_reached = (double)NAN, .width = (double)NAN};
   c->refusal = refusal_of(m, &c->refused_name);
-  c->q_run = PL_ARRAY(m->arena, double, s->n_q + 1);
-  c->v_run = PL_ARRAY(m->arena, double, s->n_q + 1);
-  c->active = PL_ARRAY(m->arena, bool, s->n_c + 1);
-  c->implied = PL_ARRAY(m->arena, bool, s->n_c + 1);
+  c->q_run = PL_ARRAY(m->motion, double, s->n_q + 1);
+  c->v_run = PL_ARRAY(m->motion, double, s->n_q + 1);
+  c->active = PL_ARRAY(m->motion, bool, s->n_c + 1);
+  c->implied = PL_ARRAY(m->motion, bool, s->n_c + 1);
   memcpy(c->q_run, pl_run_q(run), (size_t)s->n_q * sizeof(double));
   memcpy(c->v_run, pl_run_v(run), (size_t)s->n_q * sizeof(double));
   for (int i = 0; i < s->n_c; i++) c->active[i] = pl_run_is_active(run, i);
@@ -132,7 +132,7 @@ static pl_expr* times_of(const pleuel_model* m, const pleuel_sim_options* o, pl_
                  : dt > 0  ? (o->has_dt ? decimal(m, dt) : m->model->simulate.step)
                            : end;
   if (span < 0 && count == 0) step = pl_neg(p, step);
-  pl_expr* t = PL_ARRAY(m->arena, pl_expr, rows + 1);
+  pl_expr* t = PL_ARRAY(m->motion, pl_expr, rows + 1);
   for (long i = 1; i < rows; i++) t[i - 1] = pl_add(p, t_0, pl_mul(p, pl_int(p, i), step));
   t[rows - 1] = end;
   *n = (int)rows;
@@ -150,7 +150,7 @@ static const double* row_at(const pl_result* r, double t, double span) {
 static void fill_value(const pleuel_model* m, const pl_certified* proof, int time,
                        pl_certify_kind kind, int i, double x, pl_certified_value* out) {
   *out = (pl_certified_value){.error = (double)NAN, .least = (double)NAN, .radius = (double)NAN};
-  out->text = pl_certified_ball(proof, m->arena, time, kind, i, &out->radius);
+  out->text = pl_certified_ball(proof, m->motion, time, kind, i, &out->radius);
   if (!out->text) return;
   out->error = pl_certified_error(proof, time, kind, i, x);
   out->least = pl_certified_error_least(proof, time, kind, i, x);
@@ -179,7 +179,7 @@ static void fill_time(const pleuel_model* m, const pl_certified* proof, int time
     }
     fill_value(m, proof, time, PL_CERTIFY_LAMBDA, i, s->constraints[i].minus ? -x : x, out);
     if (out->text && s->constraints[i].minus)
-      out->text = *out->text == '-' ? out->text + 1 : pl_format(m->arena, "-%s", out->text);
+      out->text = *out->text == '-' ? out->text + 1 : pl_format(m->motion, "-%s", out->text);
   }
 }
 
@@ -187,10 +187,10 @@ static void fill_rows(pleuel_model* m, pl_certificate_of_run* c, const pl_certif
                       const pl_expr* times) {
   size_t width = (size_t)(2 * c->n_q + c->n_c);
   const pl_result* r = m->result;
-  const double* value = pl_model_values(m->model, m->arena);
+  const double* value = pl_model_values(m->model, m->motion);
   double span = pl_eval(m->model->pool, times[c->n_times - 1], value) - m->recording->t_0;
-  c->time = PL_ARRAY(m->arena, double, c->n_times + 1);
-  c->value = PL_ARRAY(m->arena, pl_certified_value, width * (size_t)proof->n_done + 1);
+  c->time = PL_ARRAY(m->motion, double, c->n_times + 1);
+  c->value = PL_ARRAY(m->motion, pl_certified_value, width * (size_t)proof->n_done + 1);
   for (int i = 0; i < proof->n_done; i++) {
     bool stop = proof->stopped && i == proof->n_done - 1;
     c->time[i] = stop ? r->rows.at[r->rows.n - 1][0] : pl_eval(m->model->pool, times[i], value);
@@ -217,17 +217,17 @@ static bool is_same(const pl_setup* s, const pl_happening* h, const pl_result_ev
 
 static void fill_happenings(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof) {
   const pl_setup* s = &m->recording->setup;
-  c->happened = PL_ARRAY(m->arena, pl_certified_value, proof->n_happened + 1);
-  c->state = PL_ARRAY(m->arena, pl_certified_value,
+  c->happened = PL_ARRAY(m->motion, pl_certified_value, proof->n_happened + 1);
+  c->state = PL_ARRAY(m->motion, pl_certified_value,
                       (size_t)proof->n_happened * 2 * (size_t)c->n_q + 1);
   for (int i = 0; i < proof->n_happened; i++) {
     pl_certified_value* v = &c->happened[i];
     *v = (pl_certified_value){.error = (double)NAN, .least = (double)NAN};
-    v->text = pl_certified_time(proof, m->arena, i, &v->radius);
+    v->text = pl_certified_time(proof, m->motion, i, &v->radius);
     for (int k = 0; k < 2 * c->n_q; k++) {
       pl_certified_value* x = &c->state[(size_t)i * 2 * (size_t)c->n_q + (size_t)k];
       *x = (pl_certified_value){.error = (double)NAN, .least = (double)NAN};
-      x->text = pl_certified_state(proof, m->arena, i, k < c->n_q ? PL_CERTIFY_Q : PL_CERTIFY_V,
+      x->text = pl_certified_state(proof, m->motion, i, k < c->n_q ? PL_CERTIFY_Q : PL_CERTIFY_V,
                                    k % c->n_q, &x->radius);
     }
     for (int k = 0; k < m->result->events.n; k++) {
@@ -272,15 +272,15 @@ static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_cert
   }
   c->n_times = problem.n_times;
   find_implied(m, c);
-  pl_expr *q = PL_ARRAY(m->arena, pl_expr, c->n_q + 1),
-          *v = PL_ARRAY(m->arena, pl_expr, c->n_q + 1);
+  pl_expr *q = PL_ARRAY(m->motion, pl_expr, c->n_q + 1),
+          *v = PL_ARRAY(m->motion, pl_expr, c->n_q + 1);
   for (int i = 0; i < c->n_q; i++) {
     q[i] = start_of(m, &r->exact_q[i]);
     v[i] = start_of(m, &r->exact_v[i]);
   }
   problem.q_start = q;
   problem.v_start = v;
-  problem.exact = pl_model_definitions(m->model, m->arena);
+  problem.exact = pl_model_definitions(m->model, m->motion);
   problem.n_symbols = pl_symbol_count(p) + 1;
   pl_certify_watcher w = {o, r->t_0};
   if (o->progress) {

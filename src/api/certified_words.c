@@ -179,11 +179,14 @@ static void tell_how(teller* t) {
 void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii) {
   const pl_certificate_of_run* c = m->certified;
   if (!c) return;
-  teller t = {out, m, c, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
-  static const char* const not_at_all = PL_KEY("     not certified: %s\n");
-  static const char* const until =
-      PL_KEY("     the motion exists until t = %s, beyond it nothing is certified: %s\n");
-  static const char* const wide = PL_KEY("     the enclosure is wider than asked for: %s\n");
+  teller t = {out, m, c, m->work, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
+  static const char* const not_at_all[2] = {"     not certified: %s\n",
+                                            "     nicht zertifiziert: %s\n"};
+  static const char* const until[2] = {
+      "     the motion exists until t = %s, beyond it nothing is certified: %s\n",
+      "     die Bewegung existiert bis t = %s, danach ist nichts zertifiziert: %s\n"};
+  static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n",
+                                      "     die Einschließung ist weiter als verlangt: %s\n"};
   int done = c->refusal == PL_CERTIFY_TRIED ? c->proof.n_done : 0;
   // all times are in the JSON document
   if (c->refusal == PL_CERTIFY_TRIED && (done > 0 || c->proof.n_happened > 0)) {
@@ -257,7 +260,7 @@ static void json_happenings(pl_json* j, const teller* t) {
 void pl_certified_json(pl_json* j, const pleuel_model* m) {
   const pl_certificate_of_run* c = m->certified;
   if (!c) return;
-  teller t = {NULL, m, c, m->arena, m->job.lang, false, {PL_MATH_LINE, m->job.lang}};
+  teller t = {NULL, m, c, m->work, m->job.lang, false, {PL_MATH_LINE, m->job.lang}};
   const pl_certified* p = &c->proof;
   bool tried = c->refusal == PL_CERTIFY_TRIED, complete = tried && p->end == PL_CERTIFIED;
   pl_json_object(j, "certified");

@@ -199,11 +199,11 @@ static pleuel_status read_file(pl_keeping* k) {
   fits = fits && memcmp(head.magic, magic, sizeof magic) == 0 && head.order == order_of_bytes
          && head.size == (uint64_t)st.st_size;
   size_t n = fits ? (size_t)head.size - sizeof head : 0;
-  unsigned char* bytes = pl_alloc(k->m->arena, n + 1);
+  unsigned char* bytes = pl_alloc(k->m->motion, n + 1);
   fits = fits && read_at(fd, bytes, sizeof head, n) == n && pl_hash_bytes(bytes, n, 0) == head.sum;
   close(fd);
   if (!fits) return damaged(k);
-  k->state = pl_keeper_to_read(k->m->arena, bytes, n);
+  k->state = pl_keeper_to_read(k->m->motion, bytes, n);
   return PLEUEL_OK;
 }
 
@@ -225,9 +225,9 @@ static pleuel_status check_rows(pl_keeping* k) {
 
 pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o) {
   if (o->state == NULL) return NULL;
-  pl_keeping* k = PL_NEW(m->arena, pl_keeping);
+  pl_keeping* k = PL_NEW(m->motion, pl_keeping);
   *k = (pl_keeping){.m = m,
-                    .path = pl_copy(m->arena, o->state),
+                    .path = pl_copy(m->motion, o->state),
                     .csv = o->csv,
                     .resumes = o->resume != 0,
                     .countdown = 1,
@@ -243,7 +243,7 @@ pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o,
   if (!k->resumes) return PLEUEL_OK;
   PL_TRY(read_file(k));
   pl_traits kept = {0};
-  pl_traits_keep(&k->state, &kept, k->m->arena);
+  pl_traits_keep(&k->state, &kept, k->m->motion);
   if (k->state.wrong) return damaged(k);
   PL_TRY(pl_traits_compare(k->m, k->path, &kept, &k->traits));
   keep_rows(&k->state, &k->rows);

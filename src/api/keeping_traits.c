@@ -84,7 +84,7 @@ static const char* number(pl_arena* a, double x) {
 }
 
 static const char* settings(const pleuel_model* m) {
-  pl_text text = pl_text_make(m->arena);
+  pl_text text = pl_text_make(m->motion);
   for (int i = 0; i < m->n_settings; i++)
     pl_text_addf(&text, "%s%s=%s", i ? " --set " : "", m->settings[i].name, m->settings[i].value);
   return pl_text_string(&text);
@@ -95,7 +95,7 @@ void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_optio
   static const char* const precision[] = {"double", "long", "quad"};
   static const char* const method[] = {
       [PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
-  pl_arena* a = m->arena;
+  pl_arena* a = m->motion;
   pl_build build = {.here = (const void*)(uintptr_t)pl_traits_of};
   name_build(&build);
   add(list, a, "program", NULL, pleuel_version());

@@ -209,7 +209,7 @@ static void tell_undetermined(pl_teller* t) {
 }
 
 void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
-  pl_teller t = {out, m, m->arena, lang, false, {PL_MATH_LINE, lang}};
+  pl_teller t = {out, m, m->work, lang, false, {PL_MATH_LINE, lang}};
   if (!m->result) return;
   const pl_stats* s = &m->result->stats;
   if (!isnan(m->resumed_at)) {
@@ -232,7 +232,7 @@ void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
 
 void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii,
                     bool events_only) {
-  pl_teller t = {out, m, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
+  pl_teller t = {out, m, m->work, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
   const pl_result* r = m->result;
   if (!r) {
     if (m->run_message[0])
@@ -343,7 +343,7 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_number(
       &j, "energy_drift",
       m->recording && m->recording->setup.energy_conserved ? s->energy_drift : (double)NAN);
-  if (s->undetermined) json_names(m->arena, &j, "undetermined", s->undetermined);
+  if (s->undetermined) json_names(m->work, &j, "undetermined", s->undetermined);
   pl_json_list(&j, "events");
   for (int i = 0; r && i < r->events.n; i++) json_event(&j, m, &r->events.at[i]);
   pl_json_end_list(&j);

@@ -31,7 +31,7 @@ static pleuel_status run_until(pleuel_model* m, pl_language lang, bool has_until
   }
   bool even = m->model->simulate.given && pl_is_poison(m->model->simulate.step)
               && m->model->simulate.count == 0;
-  int n = pl_model_flat_coords(m->model, m->arena).n;
+  int n = pl_model_flat_coords(m->model, m->work).n;
   if (even) m->model->simulate.count = n < 40 ? 2880 : n < 400 ? 960 : 240;
   m->is_recorded = false;
   pleuel_status s = pl_views_make(m, lang, views);
@@ -91,27 +91,27 @@ static const char* event_label(pl_arena* a, const pl_result_event* e, pl_languag
 enum { MOST_MARKS = 12 };
 
 static void make_marks(pleuel_model* m, pl_language lang, const pl_result* r, pl_plot_panel* p) {
-  pl_plot_mark* mark = PL_ARRAY(m->arena, pl_plot_mark, MOST_MARKS);
+  pl_plot_mark* mark = PL_ARRAY(m->work, pl_plot_mark, MOST_MARKS);
   for (int i = 0; i < r->events.n && p->n_marks < MOST_MARKS; i++) {
     mark[p->n_marks++] = (pl_plot_mark){r->events.at[i].t,
-                                        event_label(m->arena, &r->events.at[i], lang)};
+                                        event_label(m->work, &r->events.at[i], lang)};
   }
   p->marks = mark;
 }
 
 static void make_panels(pleuel_model* m, pl_language lang, pl_showing* show) {
   const pl_views* v = &show->views;
-  show->panels = PL_ARRAY(m->arena, pl_plot_panel, v->plots.n + 1);
+  show->panels = PL_ARRAY(m->work, pl_plot_panel, v->plots.n + 1);
   for (int i = 0; v->result && i < v->plots.n; i++) {
     const pl_html_plot* from = &v->plots.at[i];
     if (from->title && m->model->plots.n > 0) continue;  // what the model asks for is enough
     pl_plot_panel* p = &show->panels[show->n_panels++];
-    pl_curve_data* curve = PL_ARRAY(m->arena, pl_curve_data, from->n_curves + 1);
-    const double* x = column_of(m->arena, v->result, from->x_column);
+    pl_curve_data* curve = PL_ARRAY(m->work, pl_curve_data, from->n_curves + 1);
+    const double* x = column_of(m->work, v->result, from->x_column);
     for (int k = 0; k < from->n_curves; k++) {
       const pl_html_curve* c = &from->curves[k];
       curve[k] = (pl_curve_data){c->name, c->unit, v->result->rows.n, x,
-                                 column_of(m->arena, v->result, c->column)};
+                                 column_of(m->work, v->result, c->column)};
     }
     *p = (pl_plot_panel){.title = from->title,
                          .x_name = from->x_name ? from->x_name : "t",
@@ -176,12 +176,12 @@ pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_pl
                   : n == 1      ? 420 + top
                            : (n == 2 ? 1.25 : 1) * cell_height * count_rows(show.n_panels, drawing)
                                  + top;
-  pl_drawing* d = pl_drawing_make(m->arena, width, height);
+  pl_drawing* d = pl_drawing_make(m->work, width, height);
   d->title = show.scene->description[lang];
   pl_scene_style style = {.lang = lang, .forces = !o->no_forces, .trails = true, .labels = true};
   draw_panels(d, m, lang, &show, drawing, &style);
   if (o->format == PLEUEL_SVG) {
-    pl_text out = pl_text_make(m->arena);
+    pl_text out = pl_text_make(m->work);
     pl_svg_style svg = {.theme = (pl_theme)o->style};
     pl_svg_write(&out, d, &svg);
     *bytes = pl_text_string(&out);
@@ -219,7 +219,7 @@ static int scene_frame(const pl_scene* scene, const pl_film* f, int i) {
 }
 
 static void draw_time(pl_drawing* d, pleuel_model* m, pl_language lang, double t) {
-  char* text = pl_format(m->arena, "t = %.2f%s", t, m->model->uses_units ? " s" : "");
+  char* text = pl_format(m->work, "t = %.2f%s", t, m->model->uses_units ? " s" : "");
   for (char* c = text; lang == PL_GERMAN && *c; c++)
     if (*c == '.') *c = ',';
   pl_draw_text(d, PL_INK_MUTED, 13, PL_ANCHOR_END, d->width - 14, d->height - 12, text);
@@ -230,7 +230,7 @@ static pl_drawing* draw_film(pleuel_model* m, pl_language lang, const pl_showing
   const pl_scene* scene = show->scene;
   double width = o->width > 0 ? o->width : 480, height = o->height > 0 ? o->height : 440,
          top = m->model->title ? head : 0;
-  pl_drawing* d = pl_drawing_make(m->arena, width, height);
+  pl_drawing* d = pl_drawing_make(m->work, width, height);
   pl_frame_rect r = {0, top, width, height - top - 16};
   pl_scene_style style = {
       .lang = lang, .forces = o->forces, .trails = true, .labels = true, .steady = true};
@@ -255,7 +255,7 @@ static pl_drawing* draw_film(pleuel_model* m, pl_language lang, const pl_showing
 static pleuel_status hand_frames(pleuel_model* m, const pl_drawing* d, const pl_film* f,
                                  const pleuel_animate_options* o) {
   int w = (int)d->width, h = (int)d->height;
-  uint32_t* pixels = PL_ARRAY(m->arena, uint32_t, (size_t)w * (size_t)h);
+  uint32_t* pixels = PL_ARRAY(m->work, uint32_t, (size_t)w * (size_t)h);
   for (int i = 0; i < f->n; i++) {
     if (pl_interrupted(&m->job)) return PLEUEL_INTERRUPTED;
     if (!pl_raster_pixels(d, (pl_theme)o->style, i, pixels))
@@ -268,15 +268,15 @@ static pleuel_status hand_frames(pleuel_model* m, const pl_drawing* d, const pl_
 static pleuel_status write_gif(pleuel_model* m, const pl_drawing* d, const pl_film* f,
                                const pleuel_animate_options* o, const char** bytes, size_t* size) {
   int w = (int)d->width, h = (int)d->height;
-  uint32_t* pixels = PL_ARRAY(m->arena, uint32_t, (size_t)w * (size_t)h);
-  uint32_t* count = PL_ARRAY(m->arena, uint32_t, PL_GIF_BINS);
+  uint32_t* pixels = PL_ARRAY(m->work, uint32_t, (size_t)w * (size_t)h);
+  uint32_t* count = PL_ARRAY(m->work, uint32_t, PL_GIF_BINS);
   int stride = f->n > 8 ? f->n / 8 : 1;
   for (int i = 0; i < f->n; i += stride) {
     if (!pl_raster_pixels(d, (pl_theme)o->style, i, pixels))
       return pl_fail(&m->job, PLEUEL_NO_MEMORY, "the picture could not be drawn");
     pl_gif_count(count, pixels, (size_t)w * (size_t)h);
   }
-  pl_gif* gif = pl_gif_make(m->arena, w, h, (int)fmax(2, lround(100 * f->seconds / f->n)), count);
+  pl_gif* gif = pl_gif_make(m->work, w, h, (int)fmax(2, lround(100 * f->seconds / f->n)), count);
   for (int i = 0; i < f->n; i++) {
     if (pl_interrupted(&m->job)) return PLEUEL_INTERRUPTED;
     if (!pl_raster_pixels(d, (pl_theme)o->style, i, pixels))
@@ -314,7 +314,7 @@ pleuel_status pl_picture_animate(pleuel_model* m, pl_language lang, const pleuel
   if (o->frame) PL_TRY(hand_frames(m, d, &film, o));
   else if (o->format == PLEUEL_GIF) PL_TRY(write_gif(m, d, &film, o, bytes, size));
   else {
-    pl_text out = pl_text_make(m->arena);
+    pl_text out = pl_text_make(m->work);
     pl_svg_animate(&out, d, (pl_theme)o->style, film.n, film.seconds, best);
     *bytes = pl_text_string(&out);
     *size = out.n;

@@ -13,6 +13,13 @@
 #include <math.h>
 #include <string.h>
 
+// The steps that are remembered are taken in memory that lives as long as they do.
+static pl_arena* work_in(pleuel_model* m, pl_arena* arena) {
+  pl_arena* before = m->job.arena;
+  m->job.arena = arena;
+  return before;
+}
+
 static void note_time(pleuel_model* m, int stage, double start_s) {
   m->stage_ms[stage] += 1e3 * (pl_clock() - start_s);
 }
@@ -69,7 +76,7 @@ static pleuel_status check_whole_part(pleuel_model* m) {
 }
 
 // model -> checked model
-pleuel_status pl_pipeline_check(pleuel_model* m) {
+static pleuel_status check(pleuel_model* m) {
   if (m->is_checked) return m->checked;
   m->is_checked = true;
   m->checked = m->parsed;
@@ -87,9 +94,16 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
   return m->checked;
 }
 
+pleuel_status pl_pipeline_check(pleuel_model* m) {
+  pl_arena* before = work_in(m, m->arena);
+  pleuel_status s = check(m);
+  m->job.arena = before;
+  return s;
+}
+
 // checked model -> equations and steps
-static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure,
-                            bool along) {
+static pleuel_status derive_here(pleuel_model* m, const char* only, double seconds, bool structure,
+                                 bool along) {
   double start = pl_clock();
   pl_editor_forget_solution(m);
   pl_solution_close(m->solution);
@@ -117,6 +131,14 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   return m->derived;
 }
 
+static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure,
+                            bool along) {
+  pl_arena* before = work_in(m, m->arena);
+  pleuel_status s = derive_here(m, only, seconds, structure, along);
+  m->job.arena = before;
+  return s;
+}
+
 pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds, bool along) {
   PL_TRY(pl_pipeline_check(m));
   bool same = m->solved_only == only
@@ -130,14 +152,26 @@ pleuel_status pl_pipeline_structure(pleuel_model* m) {
   return m->is_derived ? m->derived : derive(m, NULL, 0, true, false);
 }
 
-// checked model -> setup of the motion: patterns, start values, events
+// checked model -> setup of the motion: patterns, start values, events.  The run that belongs to the
+// recording before is forgotten with it.
+static pleuel_status record(pleuel_model* m, const char* sensitivities) {
+  double start = pl_clock();
+  m->result = NULL;
+  pl_arena_rewind(m->recorded_in, m->recorded_empty);
+  pl_arena* before = work_in(m, m->recorded_in);
+  const char* copy = sensitivities ? pl_copy(m->recorded_in, sensitivities) : NULL;
+  m->recorded = pl_record(&m->job, m->model, copy, m->exact && !copy, &m->recording);
+  if (m->recorded == PLEUEL_OK) m->recording->sensitivities = copy;
+  m->job.arena = before;
+  note_time(m, PL_STAGE_RECORD, start);
+  return m->recorded;
+}
+
 pleuel_status pl_pipeline_record(pleuel_model* m) {
   PL_TRY(pl_pipeline_check(m));
   if (m->is_recorded) return m->recorded;
-  double start = pl_clock();
-  m->recorded = pl_record(&m->job, m->model, NULL, m->exact, &m->recording);
+  record(m, NULL);
   m->is_recorded = m->recorded != PLEUEL_INTERRUPTED;
-  note_time(m, PL_STAGE_RECORD, start);
   return m->recorded;
 }
 
@@ -146,20 +180,16 @@ pleuel_status pl_pipeline_record(pleuel_model* m) {
 static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
   if (m->is_recorded && m->recorded == PLEUEL_OK && m->recording->exact != m->exact)
     m->is_recorded = false;
-  const char* known = m->is_recorded && m->recorded == PLEUEL_OK ? m->recording->sensitivities
-                                                                 : NULL;
+  bool recorded = m->is_recorded && m->recorded == PLEUEL_OK;
+  const char* known = recorded ? m->recording->sensitivities : NULL;
   bool same = known == sensitivities
               || (known && sensitivities && strcmp(known, sensitivities) == 0);
-  if (m->is_recorded && m->recorded == PLEUEL_OK && !same) m->is_recorded = false;
+  if (recorded && !same) m->is_recorded = false;
   if (!sensitivities) return pl_pipeline_record(m);
   PL_TRY(pl_pipeline_check(m));
   if (m->is_recorded && same) return m->recorded;
-  double start = pl_clock();
-  const char* copy = pl_copy(m->arena, sensitivities);
-  m->recorded = pl_record(&m->job, m->model, copy, false, &m->recording);
-  if (m->recorded == PLEUEL_OK) m->recording->sensitivities = copy;
+  record(m, sensitivities);
   m->is_recorded = m->recorded == PLEUEL_OK;
-  note_time(m, PL_STAGE_RECORD, start);
   return m->recorded;
 }
 
@@ -198,8 +228,8 @@ static pleuel_status relay_columns(void* user, const pl_setup* setup) {
   pl_relay* r = user;
   const pl_result* result = r->model->result;
   if (!r->options->columns) return PLEUEL_OK;
-  const char** names = PL_ARRAY(r->model->arena, const char*, result->n_columns);
-  const char** units = PL_ARRAY(r->model->arena, const char*, result->n_columns);
+  const char** names = PL_ARRAY(r->model->motion, const char*, result->n_columns);
+  const char** units = PL_ARRAY(r->model->motion, const char*, result->n_columns);
   for (int i = 0; i < result->n_columns; i++) {
     names[i] = result->columns[i].name;
     units[i] = result->columns[i].unit ? result->columns[i].unit : "";
@@ -227,12 +257,12 @@ static bool is_wide(const pleuel_sim_options* o) { return o->precision != PLEUEL
 
 // A time as it was written, in three doubles; NULL: it was given as a double.
 static const double* exact_time(pleuel_model* m, const char* text) {
-  double* part = PL_ARRAY(m->arena, double, 3);
-  return text && pl_quantity_parts(m->arena, text, part) == NULL ? part : NULL;
+  double* part = PL_ARRAY(m->motion, double, 3);
+  return text && pl_quantity_parts(m->motion, text, part) == NULL ? part : NULL;
 }
 
 // setup -> run with a consistent start.  Without sink: to look at the start only.
-pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
+static pleuel_status start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
   PL_TRY(record_varied(m, o->sensitivities));
   const pl_recording* r = m->recording;
   bool turned = is_turned(r, o);
@@ -246,20 +276,20 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   if (m->result) {
     how.sink = pl_result_sink(m->result);
     if (o->csv)
-      m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv)
-                                                : pl_csv_sink(m->arena, o->csv);
+      m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->motion, o->csv)
+                                                : pl_csv_sink(m->motion, o->csv);
     else if (o->row) {
-      pl_relay* relay = PL_NEW(m->arena, pl_relay);
+      pl_relay* relay = PL_NEW(m->motion, pl_relay);
       *relay = (pl_relay){
           .options = o,
           .model = m,
           .setup = setup,
-          .values = PL_ARRAY(m->arena, double, 1 + 2 * setup->n_q + setup->n_c + setup->n_out)};
+          .values = PL_ARRAY(m->motion, double, 1 + 2 * setup->n_q + setup->n_c + setup->n_out)};
       m->result->next = (pl_sink){.user = relay, .begin = relay_columns, .row = relay_row};
     }
   }
   if (o->progress) {
-    pl_watcher* w = PL_NEW(m->arena, pl_watcher);
+    pl_watcher* w = PL_NEW(m->motion, pl_watcher);
     *w = (pl_watcher){o, how.t_0};
     how.progress = watch;
     how.progress_user = w;
@@ -288,6 +318,22 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   return s;
 }
 
+pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
+  pl_arena* before = work_in(m, m->motion);
+  pleuel_status s = start(m, o, out);
+  m->job.arena = before;
+  return s;
+}
+
+void pl_pipeline_forget_run(pleuel_model* m) {
+  pl_arena_rewind(m->motion, m->motion_empty);
+  m->result = NULL;
+  m->start = (pl_start_report){0};
+  m->certified = NULL;
+  m->keeping = NULL;
+  m->state = m->resume_command = NULL;
+}
+
 static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   const pl_recording* r = m->recording;
   if (!o->has_until && isnan(r->t_end)) {
@@ -304,6 +350,10 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   return PLEUEL_OK;
 }
 
+static bool is_told(const pl_diagnostic* d, const pl_constraint* c) {
+  return d->code == PL_N068 && d->span.begin == c->span.begin;
+}
+
 // An impact on a contact for which no `restitution` is given was taken as inelastic: said once for
 // each, with the request for a law.
 static void tell_inelastic(pleuel_model* m) {
@@ -315,8 +365,7 @@ static void tell_inelastic(pleuel_model* m) {
                                  : NULL;
     if (!c || pl_model_restitution(m->model, c)) continue;
     bool told = false;
-    for (int k = before; k < m->diagnostics.list.n; k++)
-      told |= m->diagnostics.list.at[k].span.begin == c->span.begin;
+    for (int k = 0; k < m->diagnostics.list.n; k++) told |= is_told(&m->diagnostics.list.at[k], c);
     if (told) continue;
     pl_diagnostic* d = pl_report(
         &m->diagnostics, PL_N068, c->span,
@@ -331,17 +380,15 @@ static void tell_inelastic(pleuel_model* m) {
 }
 
 // setup -> motion
-pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
+static pleuel_status run(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
-  m->result = NULL;
+  pl_pipeline_forget_run(m);
   m->run_message[0] = '\0';
-  m->keeping = NULL;
-  m->certified = NULL;
   m->kept = PL_KEPT_NO;
   m->rows_kept = 0;
   m->resumed_at = (double)NAN;
-  m->state = o->state ? pl_copy(m->arena, o->state) : NULL;
-  m->resume_command = o->resume_command ? pl_copy(m->arena, o->resume_command) : NULL;
+  m->state = o->state ? pl_copy(m->motion, o->state) : NULL;
+  m->resume_command = o->resume_command ? pl_copy(m->motion, o->resume_command) : NULL;
   m->exact = is_wide(o);
   m->run = record_varied(m, o->sensitivities);
   if (m->run == PLEUEL_OK) m->run = check_times(m, o);
@@ -351,7 +398,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   }
   double start = pl_clock();
   // with all rows: each is compared with its enclosure
-  m->result = pl_result_make(m->arena, o->certify);
+  m->result = pl_result_make(m->motion, o->certify);
   m->keeping = pl_keeping_make(m, o);
   pl_run* run = NULL;
   m->run = pl_pipeline_start(m, o, &run);
@@ -364,4 +411,11 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   note_time(m, PL_STAGE_RUN, start);
   pleuel_status proved = pl_certify_end_of_run(m, o);
   return m->run == PLEUEL_OK ? proved : m->run;
+}
+
+pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
+  pl_arena* before = work_in(m, m->motion);
+  pleuel_status s = run(m, o);
+  m->job.arena = before;
+  return s;
 }

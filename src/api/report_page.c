@@ -60,7 +60,7 @@ pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_rep
                       .energy_conserved = views.energy_conserved,
                       .tol = views.tol,
                       .run_message = views.message};
-  pl_text out = pl_text_make(m->arena);
+  pl_text out = pl_text_make(m->work);
   pl_html_report(&out, &in);
   *html = pl_text_string(&out);
   return PLEUEL_OK;

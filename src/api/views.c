@@ -26,7 +26,7 @@ static void add_outputs(pleuel_model* m) {
   for (int i = 0; i < model->plots.n; i++) {
     const pl_plot* p = &model->plots.at[i];
     for (int k = -1; k < p->y.n; k++) {
-      pl_output o = {.name = hidden_name(m->arena, i, k),
+      pl_output o = {.name = hidden_name(m->work, i, k),
                      .value = k < 0 ? p->x : p->y.at[k],
                      .span = p->span,
                      .optional = true};
@@ -239,7 +239,8 @@ static pleuel_status run_once(pleuel_model* m, pl_views* v, long count) {
     m->recording->dt = 0;
   }
   PLEUEL_OPTIONS(pleuel_sim_options, how);
-  m->result = pl_result_make(m->arena, true);
+  pl_pipeline_forget_run(m);
+  m->result = pl_result_make(m->motion, true);
   pl_run* r = NULL;
   pleuel_status s = pl_pipeline_start(m, &how, &r);
   if (s == PLEUEL_OK) s = pl_run_to_end(r);
@@ -266,7 +267,7 @@ static pleuel_status run(pleuel_model* m, pl_views* v) {
 // Nothing of this is remembered as "the run" of the model, which has the columns and rows that the
 // file asks for.
 pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* v) {
-  *v = (pl_views){.arena = m->arena, .lang = lang};
+  *v = (pl_views){.arena = m->work, .lang = lang};
   if (!m->model->simulate.given) return PLEUEL_OK;
   int n_outputs = m->model->outputs.n;
   add_outputs(m);
@@ -274,7 +275,7 @@ pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* v) {
   m->run = run(m, v);
   m->is_run = true;
   if (m->run != PLEUEL_OK) snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
-  v->message = m->run == PLEUEL_OK ? NULL : pl_copy(m->arena, m->run_message);
+  v->message = m->run == PLEUEL_OK ? NULL : pl_copy(m->work, m->run_message);
   v->tol = m->tol_used;
   if (v->result && v->result->rows.n > 1) {
     v->n_columns = v->result->n_columns;
