@@ -114,7 +114,8 @@ bool cli_was_interrupted(void);
 void cli_remove_on_abort(const char* path);   // removed by the second Ctrl-C; NULL: nothing
 void cli_keep_on_abort(const char* witness);  // but not when this file is there
 // one line on stderr, on a terminal, after half a second
-void cli_progress(void* user, const pleuel_progress* where);
+int cli_write(void* file, const void* bytes, size_t n);  // pleuel_write_function
+int cli_progress(void* user, const pleuel_progress* where);
 void cli_progress_clear(void);
 
 // ------------------------------------------------------------------------------------------- files

@@ -184,3 +184,5 @@ int cli_finish_bytes(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_
   if (s == PLEUEL_NO_CLOSED_FORM && !o->strict) return EXIT_DONE;
   return cli_exit_code(s);
 }
+
+int cli_write(void* file, const void* bytes, size_t n) { return fwrite(bytes, 1, n, file) != n; }

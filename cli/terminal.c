@@ -88,8 +88,9 @@ static double now(void) {
 static bool shown;
 
 // sim  38 %  t = 19.0 of 50 s  step 2.1e-3  energy 3e-12  eta 0:14
-void cli_progress(void* user, const pleuel_progress* p) {
+int cli_progress(void* user, const pleuel_progress* p) {
   (void)user;
+  if (p->stage < PLEUEL_STAGE_RUN || isnan(p->t)) return 0;
   static const double patience_s = 0.5;  // shorter runs stay silent
   static const double interval_s = 0.1;
   static double start, last, part_before;
@@ -99,7 +100,7 @@ void cli_progress(void* user, const pleuel_progress* p) {
     start = t;
     part_before = part;
   }  // a run that goes on does not begin at zero
-  if (!isatty(fileno(stderr)) || t - start < patience_s || t - last < interval_s) return;
+  if (!isatty(fileno(stderr)) || t - start < patience_s || t - last < interval_s) return 0;
   last = t;
 
   double eta = part > part_before ? (t - start) * (1 - part) / (part - part_before) : 0;
@@ -109,6 +110,7 @@ void cli_progress(void* user, const pleuel_progress* p) {
   fprintf(stderr, "  eta %d:%02d \033[K", (int)(eta / 60), (int)eta % 60);
   fflush(stderr);
   shown = true;
+  return 0;
 }
 
 void cli_progress_clear(void) {

@@ -137,22 +137,28 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   bool to_file = o->output && !to_stdout;
   code = to_file ? cli_rows_open(&rows, o) : EXIT_DONE;
   if (code == EXIT_DONE) {
-    how.csv = to_file ? rows.file.to : to_stdout ? stdout : NULL;
+    FILE* device = to_stdout ? stdout : to_file && !rows.state[0] ? rows.file.to : NULL;
+    if (to_file && !device) how.csv_file = rows.file.temporary;
+    if (device) {
+      how.csv = cli_write;
+      how.csv_user = device;
+    }
     if (rows.state[0] && !o->certify) {  // what is certified runs in one go
       cli_resume_command(command, sizeof command, o);
       how.state = rows.state;
       how.resume = o->resume;
       how.resume_command = command;
     }
-    how.progress = cli_progress;
+    pleuel_set_progress(ctx, cli_progress, NULL);
     how.method = (pleuel_method)chosen[0];
     how.engine = (pleuel_engine)chosen[1];
     how.precision = (pleuel_precision)chosen[2];
     how.until_as_written = o->until;
     how.dt_as_written = o->dt;
     how.sensitivities = o->sensitivities;
-    pleuel_sim_summary summary;
+    PLEUEL_OPTIONS(pleuel_summary, summary);
     pleuel_status s = pleuel_simulate(m, &summary, &how);
+    pleuel_set_progress(ctx, NULL, NULL);
     cli_progress_clear();
     code = cli_exit_code(s);
     bool started = !isnan(summary.t_end);

@@ -21,7 +21,6 @@
 #define PLEUEL_H
 
 #include <stddef.h>
-#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -109,6 +108,46 @@ void pleuel_interrupt_clear(pleuel *ctx);
   type name = {0};              \
   name.size = sizeof name
 #endif
+
+/* Where a call stands: for a line of progress. */
+typedef enum pleuel_stage {
+  PLEUEL_STAGE_CHECK = 0, /* names, units, families                                                */
+  PLEUEL_STAGE_DERIVE,    /* equations and their solution                                          */
+  PLEUEL_STAGE_WITNESS,   /* what was derived is held against the motion                           */
+  PLEUEL_STAGE_RECORD,    /* programs of the motion                                                */
+  PLEUEL_STAGE_RUN,       /* the motion                                                            */
+  PLEUEL_STAGE_CERTIFY    /* its proof                                                             */
+} pleuel_stage;
+
+typedef struct pleuel_progress {
+  size_t size;
+  pleuel_stage stage;
+  int done, of;             /* DERIVE: requests that are answered, of so many                      */
+  double t, t_begin, t_end; /* RUN, CERTIFY: s                                                     */
+  double step;              /* s, the last one                                                     */
+  double energy_drift;      /* relative; NaN when energy is not conserved                          */
+  long steps;
+} pleuel_progress;
+
+/* pleuel_set_progress has `progress` called during long calls: when a stage begins, and then about
+ * ten times a second.  A result other than 0 stops the call. */
+void pleuel_set_progress(pleuel *ctx, int (*progress)(void *user, const pleuel_progress *where),
+                         void *user);
+
+/* pleuel_set_poll has `poll` called about ten times a second during long calls, for languages that
+ * look for signals themselves (Python: PyErr_CheckSignals).  Other than 0 stops the call. */
+void pleuel_set_poll(pleuel *ctx, int (*poll)(void *user), void *user);
+
+/* pleuel_write_function takes n bytes of what is written, in order.  Other than 0: they cannot be
+ * taken, and the call ends with PLEUEL_FILE.
+ *     int to_file(void *file, const void *bytes, size_t n) { return fwrite(bytes, 1, n, file) != n; }
+ */
+typedef int pleuel_write_function(void *user, const void *bytes, size_t n);
+
+/* pleuel_set_folders chooses where compiled steps are kept between programs ("": nowhere; NULL: by
+ * PLEUEL_CACHE, else the folder for caches of the user), and where the compiler plug-in lies (NULL:
+ * beside the library).  The plug-in is opened once in a process, by the first that needs it. */
+pleuel_status pleuel_set_folders(pleuel *ctx, const char *cache, const char *plugin);
 
 /* ------------------------------------------------------------------------------------------------ models */
 
@@ -239,14 +278,6 @@ pleuel_status pleuel_report(pleuel_model *model, const char **html, const pleuel
 
 /* ------------------------------------------------------------------------------------------------ simulate */
 
-/* Where a run stands: for a line of progress. */
-typedef struct pleuel_progress {
-  double t, t_begin, t_end;  /* s                                            */
-  double step;               /* s, the last one                              */
-  double energy_drift;       /* relative; NaN when energy is not conserved   */
-  long steps;
-} pleuel_progress;
-
 typedef enum pleuel_method {
   PLEUEL_METHOD_AUTO = 0, /* series, implicit where that is far cheaper                            */
   PLEUEL_METHOD_TAYLOR,   /* series                                                                */
@@ -275,8 +306,6 @@ typedef struct pleuel_sim_options {
    * with PLEUEL_INTERRUPTED.  mode names the contacts: "contact(h)", "free", "" when nothing is one-sided. */
   int (*columns)(void *user, size_t n, const char *const *names, const char *const *units);
   int (*row)(void *user, size_t n, const double *values, const char *mode);
-  FILE *csv;                        /* the same rows as CSV; opened and closed by the caller                       */
-  void (*progress)(void *user, const pleuel_progress *where);
   void *user;
   pleuel_method method;
   pleuel_engine engine;
@@ -284,12 +313,16 @@ typedef struct pleuel_sim_options {
   int no_rows; /* 1: a pleuel_result keeps the first and the last row only                         */
   const char *sensitivities;        /* "m2,x0": columns d(x)/d(m2), d(x)/d(x0) and so on, the derivatives of coordinates,
                                      * velocities and multipliers by parameters and start values                  */
-  /* A run that is interrupted can go on bit for bit.  state names the file that it keeps its state in, written now and
-   * then and when it is interrupted; NULL: none.  With resume = 1 the run goes on from there: same model, same options,
-   * same program; else PLEUEL_USAGE and a sentence that names what differs, or PLEUEL_FILE.  csv must then be open for
-   * reading and writing ("r+", "w+") and hold the rows of before; what stands in it behind the state is cut off.  `row` is
-   * called for what follows the state: of the rows before, the first rows_kept of the summary count.  The file stays when the
-   * run is complete: remove it when its rows are safe. */
+  pleuel_write_function *csv; /* rows as CSV, beside the others                                    */
+  void *csv_user;
+  /* The rest counts in pleuel_simulate only.  csv_file names a file that the rows are written to.  A
+   * run that is interrupted can go on bit for bit: `state` names the file that it keeps its state in,
+   * written now and then and when it is interrupted.  With resume = 1 the run goes on from there:
+   * same model, same options, same program; else PLEUEL_USAGE and a sentence that names what differs,
+   * or PLEUEL_FILE.  csv_file must then hold the rows of before; those behind the state are cut off.
+   * `row` is called for what follows the state: of the rows before, the first rows_kept of the
+   * summary count.  The file of the state stays when the run is complete. */
+  const char *csv_file;
   const char *state;
   double state_every;                /* s by the clock from state to state; 0: 10; below 0: only when interrupted     */
   int resume;
@@ -301,19 +334,24 @@ typedef struct pleuel_sim_options {
                                      * exact in wider numbers too; or NULL                                         */
 } pleuel_sim_options;
 
-typedef struct pleuel_sim_summary {
-  double t_end;              /* s, reached                                                     */
+typedef struct pleuel_summary {
+  size_t size;
+  pleuel_status status;
+  double t_end; /* s, reached; NaN: it did not start                                               */
   long steps, rejected;
-  double residual_g;         /* largest |g|, relative to the size of its terms                 */
-  double residual_gdot;      /* largest |dg/dt|, likewise                                      */
-  double energy_drift;       /* largest, relative; NaN when energy is not conserved            */
-  size_t n_events, n_rows, n_columns;
-  size_t rows_kept;          /* of all rows, those that the state in the file stands behind    */
-} pleuel_sim_summary;
+  double residual_g;    /* largest |g|, relative to the size of its terms                          */
+  double residual_gdot; /* largest |dg/dt|, likewise                                               */
+  double energy_drift;  /* largest, relative; NaN when energy is not conserved                     */
+  size_t n_events, n_columns;
+  size_t n_rows;        /* that were computed                                                      */
+  size_t n_rows_stored; /* that the result holds                                                   */
+  size_t rows_kept;     /* of all rows, those that the state in the file stands behind             */
+} pleuel_summary;
 
 /* pleuel_simulate computes the motion.  summary may be NULL.  A run that cannot go on ends with PLEUEL_NUMERICAL or
  * PLEUEL_SINGULAR and the place in pleuel_message; the rows up to there have been handed over. */
-pleuel_status pleuel_simulate(pleuel_model *model, pleuel_sim_summary *summary, const pleuel_sim_options *options);
+pleuel_status pleuel_simulate(pleuel_model *model, pleuel_summary *summary,
+                              const pleuel_sim_options *options);
 
 /* pleuel_simulation_text and _json tell about the last run: events with their states, residuals, drift. */
 const char *pleuel_simulation_text(pleuel_model *model, const pleuel_text_options *options);
@@ -329,19 +367,6 @@ const char *pleuel_simulation_engine(pleuel_model *model, const pleuel_text_opti
 typedef struct pleuel_result pleuel_result;
 void pleuel_result_free(pleuel_result *result);
 
-typedef struct pleuel_summary {
-  size_t size;
-  pleuel_status status;
-  double t_end; /* s, reached; NaN: it did not start                                               */
-  long steps, rejected;
-  double residual_g;    /* largest |g|, relative to the size of its terms                          */
-  double residual_gdot; /* largest |dg/dt|, likewise                                               */
-  double energy_drift;  /* largest, relative; NaN when energy is not conserved                     */
-  size_t n_events, n_columns;
-  size_t n_rows;        /* that were computed                                                      */
-  size_t n_rows_stored; /* that the result holds                                                   */
-  size_t rows_kept;     /* of all rows, those that the state in the file stands behind             */
-} pleuel_summary;
 pleuel_status pleuel_result_summary(const pleuel_result *result, pleuel_summary *summary);
 
 typedef enum pleuel_kind { /* ORDER NAME KINDS */

@@ -1,6 +1,7 @@
 // The context: memory, language, the last sentence, the wish to stop; and the way of every public
 // function: options are copied and the work is done under a guard, so that memory that runs out
 // becomes a status.
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -78,7 +79,66 @@ void pleuel_interrupt_clear(pleuel* ctx) {
   if (ctx) atomic_store(&ctx->interrupted.asked, 0);
 }
 
-// ------------------------------------------------------------------------------- guarded calls
+// ---------------------------------------------------------------------------------- progress, poll
+static bool look(void* user) {
+  pleuel* ctx = user;
+  ctx->where.done = ctx->interrupted.done;
+  ctx->where.of = ctx->interrupted.of;
+  bool stop = ctx->progress && ctx->progress(ctx->progress_user, &ctx->where) != 0;
+  if (!stop) stop = ctx->poll && ctx->poll(ctx->poll_user) != 0;
+  return stop;
+}
+
+static void set_look(pleuel* ctx) {
+  ctx->interrupted.user = ctx;
+  ctx->interrupted.look = ctx->progress || ctx->poll ? look : NULL;
+}
+
+void pleuel_set_progress(pleuel* ctx, int (*progress)(void* user, const pleuel_progress* where),
+                         void* user) {
+  if (!ctx) return;
+  ctx->progress = progress;
+  ctx->progress_user = user;
+  set_look(ctx);
+}
+
+void pleuel_set_poll(pleuel* ctx, int (*poll)(void* user), void* user) {
+  if (!ctx) return;
+  ctx->poll = poll;
+  ctx->poll_user = user;
+  set_look(ctx);
+}
+
+void pl_api_stage(pleuel* ctx, pleuel_stage stage) {
+  if (!ctx) return;
+  ctx->where = (pleuel_progress){.size = sizeof ctx->where,
+                                 .stage = stage,
+                                 .t = (double)NAN,
+                                 .t_begin = (double)NAN,
+                                 .t_end = (double)NAN,
+                                 .energy_drift = (double)NAN};
+  ctx->interrupted.done = ctx->interrupted.of = 0;
+  if (ctx->interrupted.look && !ctx->interrupted.stopped) ctx->interrupted.stopped = look(ctx);
+}
+
+static const char* folder_of(pleuel* ctx, const char* name) {
+  return name ? pl_copy(ctx->arena, name) : NULL;
+}
+
+pleuel_status pleuel_set_folders(pleuel* ctx, const char* cache, const char* plugin) {
+  if (!ctx) return PLEUEL_USAGE;
+  volatile pleuel_status s = PLEUEL_NO_MEMORY;
+  pl_guard guard;
+  PL_GUARD(ctx->arena, guard) {
+    ctx->places.cache = folder_of(ctx, cache);
+    ctx->places.plugin = folder_of(ctx, plugin);
+    s = PLEUEL_OK;
+  }
+  pl_guard_end(ctx->arena, &guard);
+  return s;
+}
+
+// ----------------------------------------------------------------------------------- guarded calls
 void pl_api_copy(void* to, size_t size, const void* from) {
   memset(to, 0, size);
   if (!from) return;
@@ -115,6 +175,7 @@ pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument)
     return pl_api_fail(ctx, PLEUEL_NO_MEMORY, "memory ran out earlier; free this model");
   m->job.message[0] = '\0';
   m->job.status = PLEUEL_OK;
+  ctx->interrupted.stopped = false;
   volatile pleuel_status status = PLEUEL_NO_MEMORY;
   pl_guard guard;
   PL_GUARD(m->arena, guard) { status = work(m, argument); }

@@ -19,6 +19,12 @@ struct pleuel {
   pl_language lang;
   size_t limit;  // bytes a model may take; 0: none
   pl_interruption interrupted;
+  int (*progress)(void* user, const pleuel_progress* where);
+  void* progress_user;
+  int (*poll)(void* user);
+  void* poll_user;
+  pleuel_progress where;  // the call that works
+  pl_jit_places places;
   pleuel_model* first;  // models that are open
 };
 
@@ -86,6 +92,7 @@ struct pleuel_model {
   bool tol_raised, start_reported;
   double tol_used;
   char run_message[512];
+  FILE* csv;            // of csv_file, while a run is at work
   pl_keeping* keeping;  // of the run at work; NULL: its state is not kept
   pl_kept kept;
   char kept_why[128];                  // PL_KEPT_FAILED
@@ -103,6 +110,8 @@ void pl_api_copy(void* to, size_t size, const void* from);
 pleuel_status pl_api_take(pleuel* ctx, void* to, size_t size, const void* from);
 // As much of a structure as the caller knows.  PLEUEL_USAGE: it has no size.
 pleuel_status pl_api_give(void* to, const void* all, size_t size);
+// A stage begins: the caller is told, and may stop.
+void pl_api_stage(pleuel* ctx, pleuel_stage stage);
 typedef pleuel_status pl_api_work(pleuel_model* m, void* argument);
 // Runs work under a guard.  Status and sentence of the job become those of the context.
 pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument);

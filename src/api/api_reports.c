@@ -427,26 +427,36 @@ static pleuel_status simulate(pleuel_model* m, void* argument) {
   return s;
 }
 
-pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary,
+static void sum_up(const pleuel_model* m, pleuel_status s, pleuel_summary* out) {
+  const pl_result* r = m->broken ? NULL : m->result;
+  *out = (pleuel_summary){.status = s, .t_end = (double)NAN, .energy_drift = (double)NAN};
+  if (!r) return;
+  out->t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN;
+  out->steps = r->stats.steps;
+  out->rejected = r->stats.rejections;
+  out->residual_g = r->stats.max_g;
+  out->residual_gdot = r->stats.max_gdot;
+  out->energy_drift = r->stats.energy_drift;
+  out->n_events = (size_t)r->events.n;
+  out->n_columns = (size_t)r->n_columns;
+  out->n_rows = (size_t)r->n_rows;
+  out->rows_kept = (size_t)m->rows_kept;
+}
+
+pleuel_status pleuel_simulate(pleuel_model* m, pleuel_summary* summary,
                               const pleuel_sim_options* options) {
-  if (summary) *summary = (pleuel_sim_summary){.t_end = NAN, .energy_drift = NAN};
   if (!m) return PLEUEL_USAGE;
+  if (summary && summary->size == 0)
+    return pl_api_fail(m->ctx, PLEUEL_USAGE,
+                       "options without their size: declare them with PLEUEL_OPTIONS");
   pleuel_sim_options o;
   PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pleuel_status s = pl_api_worked(m, simulate, &o);
-  const pl_result* r = m->broken ? NULL : m->result;
-  if (summary && r) {
-    *summary = (pleuel_sim_summary){.t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN,
-                                    .steps = r->stats.steps,
-                                    .rejected = r->stats.rejections,
-                                    .residual_g = r->stats.max_g,
-                                    .residual_gdot = r->stats.max_gdot,
-                                    .energy_drift = r->stats.energy_drift,
-                                    .n_events = (size_t)r->events.n,
-                                    .n_rows = (size_t)r->n_rows,
-                                    .n_columns = (size_t)r->n_columns,
-                                    .rows_kept = (size_t)m->rows_kept};
-  }
+  if (!summary) return s;
+  pleuel_summary all;
+  sum_up(m, s, &all);
+  all.size = summary->size;
+  pl_api_give(summary, &all, sizeof all);
   return s;
 }
 

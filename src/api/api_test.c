@@ -145,20 +145,10 @@ typedef struct rows {
   int stop_after;
 } rows;
 
-static int take_columns(void* user, size_t n, const char* const* names, const char* const* units) {
-  rows* r = user;
-  r->n_columns = n;
-  assert_string_equal(names[0], "t");
-  assert_string_equal(units[0], "s");
-  assert_string_equal(names[1], "x");
-  while (r->E < n && strcmp(names[r->E], "E") != 0) r->E++;
-  assert_true(r->E < n);
-  assert_string_equal(units[r->E], "J");
-  return 0;
-}
-
 static int take_row(void* user, size_t n, const double* values, const char* mode) {
   rows* r = user;
+  if (r->n_columns == 0) r->n_columns = n;
+  r->E = 8;  // of this model
   assert_true(n == r->n_columns);
   assert_non_null(mode);
   if (r->n++ == 0) {
@@ -178,10 +168,9 @@ static void rows_reach_the_caller(void** state) {
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   how.has_dt = 1;
   how.dt = 0.125;
-  how.columns = take_columns;
   how.row = take_row;
   how.user = &r;
-  pleuel_sim_summary s;
+  PLEUEL_OPTIONS(pleuel_summary, s);
   assert_int_equal(pleuel_simulate(m, &s, &how), PLEUEL_OK);
   assert_true(r.n == 9 && r.first == 0 && r.last == 1 && s.t_end == 1);
   assert_true(s.residual_g < 1e-14 && s.energy_drift < 1e-13);
@@ -199,31 +188,150 @@ static void a_row_may_stop_the_run(void** state) {
   how.has_dt = 1;
   how.dt = 0.125;
   how.row = take_row;
-  how.columns = take_columns;
   how.user = &r;
   assert_int_equal(pleuel_simulate(m, NULL, &how), PLEUEL_INTERRUPTED);
   assert_true(r.n == 3);
   pleuel_close(ctx);
 }
 
+// ----------------------------------------------------------------------------------- written out
+typedef struct written {
+  char* at;
+  size_t n;
+  long stop_after;  // calls; 0: never
+} written;
+
+static int take_bytes(void* user, const void* bytes, size_t n) {
+  written* w = user;
+  if (w->stop_after && --w->stop_after == 0) return 1;
+  w->at = realloc(w->at, w->n + n);
+  memcpy(w->at + w->n, bytes, n);
+  w->n += n;
+  return 0;
+}
+
 static void the_same_run_gives_the_same_bytes(void** state) {
   (void)state;
-  char* text[2] = {NULL, NULL};
-  size_t size[2] = {0, 0};
+  written w[2] = {{0}};
   for (int i = 0; i < 2; i++) {
     pleuel* ctx = pleuel_open(NULL);
     pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
-    FILE* f = open_memstream(&text[i], &size[i]);
     PLEUEL_OPTIONS(pleuel_sim_options, how);
-    how.csv = f;
+    how.csv = take_bytes;
+    how.csv_user = &w[i];
     assert_int_equal(pleuel_simulate(m, NULL, &how), PLEUEL_OK);
-    fclose(f);
     pleuel_close(ctx);
   }
-  assert_true(size[0] == size[1] && memcmp(text[0], text[1], size[0]) == 0);
-  assert_int_equal(strncmp(text[0], "t [s],x [m],y [m],", 18), 0);
-  free(text[0]);
-  free(text[1]);
+  assert_true(w[0].n == w[1].n && memcmp(w[0].at, w[1].at, w[0].n) == 0);
+  assert_int_equal(strncmp(w[0].at, "t [s],x [m],y [m],", 18), 0);
+  free(w[0].at);
+  free(w[1].at);
+}
+
+static void bytes_that_are_not_taken_are_a_status(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  written w = {.stop_after = 1};
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  how.has_dt = 1;
+  how.dt = 1e-4;
+  how.csv = take_bytes;
+  how.csv_user = &w;
+  assert_int_equal(pleuel_simulate(m, NULL, &how), PLEUEL_FILE);
+  pleuel_close(ctx);
+}
+
+// ------------------------------------------------------------------------------ progress and poll
+typedef struct asked {
+  int calls, stop_at;
+  unsigned stages;  // seen
+} asked;
+
+static int on_progress(void* user, const pleuel_progress* where) {
+  asked* a = user;
+  assert_true(where->size == sizeof *where);
+  a->stages |= 1u << where->stage;
+  return ++a->calls == a->stop_at;
+}
+
+static int on_poll(void* user) {
+  asked* a = user;
+  return ++a->calls == a->stop_at;
+}
+
+static void progress_is_told_of_every_stage_and_may_stop_each(void** state) {
+  (void)state;
+  asked all = {0};
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_set_progress(ctx, on_progress, &all);
+  const char* text;
+  assert_int_equal(pleuel_solve_text(load(ctx, pendulum, PLEUEL_OK), &text, NULL), PLEUEL_OK);
+  unsigned expected = 1u << PLEUEL_STAGE_CHECK | 1u << PLEUEL_STAGE_DERIVE
+                      | 1u << PLEUEL_STAGE_WITNESS | 1u << PLEUEL_STAGE_RECORD
+                      | 1u << PLEUEL_STAGE_RUN;
+  assert_int_equal(all.stages, expected);
+  // a run is stopped by either
+  asked one = {.stop_at = 1};
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  assert_int_equal(pleuel_check(m, &text, NULL), PLEUEL_OK);
+  pleuel_set_progress(ctx, on_progress, &one);
+  assert_int_equal(pleuel_simulate(m, NULL, NULL), PLEUEL_INTERRUPTED);
+  pleuel_set_progress(ctx, NULL, NULL);
+  asked poll = {.stop_at = 1};
+  pleuel_set_poll(ctx, on_poll, &poll);
+  assert_int_equal(pleuel_simulate(m, NULL, NULL), PLEUEL_INTERRUPTED);
+  // the wish of a poll ends with the call
+  assert_int_equal(pleuel_simulate(m, NULL, NULL), PLEUEL_OK);
+  pleuel_close(ctx);
+}
+
+static void options_without_their_size_are_refused(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  const char* text;
+  pleuel_sim_options sim = {.has_until = 1, .until = 1};
+  assert_int_equal(pleuel_simulate(m, NULL, &sim), PLEUEL_USAGE);
+  assert_non_null(strstr(pleuel_message(ctx), "PLEUEL_OPTIONS"));
+  pleuel_solve_options solve = {.full = 1};
+  assert_int_equal(pleuel_solve_text(m, &text, &solve), PLEUEL_USAGE);
+  pleuel_text_options how = {.terse = 1};
+  assert_int_equal(pleuel_check(m, &text, &how), PLEUEL_USAGE);
+  assert_null(pleuel_diagnostics_text(m, 7, &how));
+  pleuel_load_options load_how = {.name = "x"};
+  pleuel_model* none = NULL;
+  assert_int_equal(pleuel_load_text(ctx, &none, pendulum, strlen(pendulum), &load_how),
+                   PLEUEL_USAGE);
+  pleuel_summary summary = {0};
+  assert_int_equal(pleuel_simulate(m, &summary, NULL), PLEUEL_USAGE);
+  pleuel_close(ctx);
+}
+
+// ---------------------------------------------------------------------------------- repeated work
+static long resident_kb(void) {
+  long size = 0, resident = 0;
+  FILE* f = fopen("/proc/self/statm", "r");
+  if (!f) return -1;
+  int n = fscanf(f, "%ld %ld", &size, &resident);
+  fclose(f);
+  return n == 2 ? resident * (sysconf(_SC_PAGESIZE) / 1024) : -1;
+}
+
+static void repeated_work_takes_no_more_memory(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  const char* text;
+  long after_some = 0;
+  for (int i = 0; i < 220; i++) {
+    assert_int_equal(pleuel_simulate(m, NULL, NULL), PLEUEL_OK);
+    assert_non_null(pleuel_simulation_json(m));
+    assert_int_equal(pleuel_solve_text(m, &text, NULL), PLEUEL_OK);
+    if (i == 20) after_some = resident_kb();
+  }
+  if (after_some > 0) assert_true(resident_kb() <= after_some + after_some / 100);
+  pleuel_close(ctx);
 }
 
 static void an_interrupted_context_stops_and_can_go_on(void** state) {
@@ -267,12 +375,8 @@ static int collect(void* user, size_t n, const double* values, const char* mode)
   (void)mode;
   c->width = n;
   for (size_t i = 0; i < n && c->n < 20000; i++) c->x[c->n++] = values[i];
+  if (c->stop_at > 0 && (long)(c->n / n) >= c->stop_at) pleuel_interrupt(c->ctx);
   return 0;
-}
-
-static void stop_after_steps(void* user, const pleuel_progress* where) {
-  pl_collected* c = user;
-  if (c->stop_at > 0 && where->steps >= c->stop_at) pleuel_interrupt(c->ctx);
 }
 
 static void an_interrupted_run_goes_on_in_another_context(void** state) {
@@ -286,7 +390,6 @@ static void an_interrupted_run_goes_on_in_another_context(void** state) {
   how.dt = 0.01;
   how.has_dt = 1;
   how.row = collect;
-  how.progress = stop_after_steps;
   all = parts = (pl_collected){0};
   pleuel* ctx = pleuel_open(NULL);
   how.user = &all;
@@ -299,7 +402,7 @@ static void an_interrupted_run_goes_on_in_another_context(void** state) {
   for (long stop = 2; s == PLEUEL_INTERRUPTED && stop < 40; stop += 2) {
     ctx = parts.ctx = pleuel_open(NULL);
     parts.stop_at = stop;
-    pleuel_sim_summary summary;
+    PLEUEL_OPTIONS(pleuel_summary, summary);
     s = pleuel_simulate(load(ctx, pendulum, PLEUEL_OK), &summary, &how);
     assert_true(s == PLEUEL_OK || strstr(pleuel_message(ctx), "interrupted"));
     // the row of the interruption is not one of those that stay
@@ -457,6 +560,10 @@ int main(void) {
       cmocka_unit_test(rows_reach_the_caller),
       cmocka_unit_test(a_row_may_stop_the_run),
       cmocka_unit_test(the_same_run_gives_the_same_bytes),
+      cmocka_unit_test(bytes_that_are_not_taken_are_a_status),
+      cmocka_unit_test(progress_is_told_of_every_stage_and_may_stop_each),
+      cmocka_unit_test(options_without_their_size_are_refused),
+      cmocka_unit_test(repeated_work_takes_no_more_memory),
       cmocka_unit_test(an_interrupted_context_stops_and_can_go_on),
       cmocka_unit_test(an_interrupted_run_goes_on_in_another_context),
       cmocka_unit_test(memory_that_runs_out_is_a_status),

@@ -239,15 +239,13 @@ static void fill_happenings(pleuel_model* m, pl_certificate_of_run* c, const pl_
 }
 
 // --------------------------------------------------------------------------------------------- all
-typedef struct pl_certify_watcher {
-  const pleuel_sim_options* options;
-  double t_0;
-} pl_certify_watcher;
-
+// Numbers for the one who looks, as of a run.
 static void watch(void* user, double t, double t_end, double h, long steps) {
-  const pl_certify_watcher* w = user;
-  pleuel_progress p = {t, w->t_0, t_end, h, (double)NAN, steps};
-  w->options->progress(w->options->user, &p);
+  pleuel_progress* where = user;
+  where->t = t;
+  where->t_end = t_end;
+  where->step = h;
+  where->steps = steps;
 }
 
 static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_certificate_of_run* c) {
@@ -282,11 +280,10 @@ static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_cert
   problem.v_start = v;
   problem.exact = pl_model_definitions(m->model, m->motion);
   problem.n_symbols = pl_symbol_count(p) + 1;
-  pl_certify_watcher w = {o, r->t_0};
-  if (o->progress) {
-    problem.progress = watch;
-    problem.progress_user = &w;
-  }
+  pl_api_stage(m->ctx, PLEUEL_STAGE_CERTIFY);
+  m->ctx->where.t_begin = r->t_0;
+  problem.progress = watch;
+  problem.progress_user = &m->ctx->where;
   PL_TRY(pl_certify_motion(&m->job, &problem, &c->proof));
   fill_rows(m, c, &c->proof, problem.times);
   fill_happenings(m, c, &c->proof);

@@ -228,7 +228,7 @@ pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o) {
   pl_keeping* k = PL_NEW(m->motion, pl_keeping);
   *k = (pl_keeping){.m = m,
                     .path = pl_copy(m->motion, o->state),
-                    .csv = o->csv,
+                    .csv = m->csv,
                     .resumes = o->resume != 0,
                     .countdown = 1,
                     .pace = 1};

@@ -109,7 +109,7 @@ void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_optio
   add(list, a, "method", "--method", method[how->method]);
   add(list, a, "precision", "--precision", precision[o->precision]);
   add(list, a, "sensitivities", "--sensitivities", o->sensitivities ? o->sensitivities : "");
-  add(list, a, "rows", "-o", o->csv ? "csv" : o->row ? "row" : "");
+  add(list, a, "rows", "-o", o->csv_file ? "csv" : o->row ? "row" : "");
   add(list, a, "build", NULL, pl_copy(a, build.name));
   add(list, a, "machine", NULL, pl_format(a, "%016llx", (unsigned long long)digits_of_functions()));
 }

@@ -10,6 +10,7 @@
 #include "api/system_impl.h"
 #include "witness/witness.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -84,6 +85,7 @@ static pleuel_status check(pleuel_model* m) {
   if (whole_part) m->checked = check_whole_part(m);
   if (m->parsed != PLEUEL_OK || !m->model) return m->checked;
   double start = pl_clock();
+  pl_api_stage(m->ctx, PLEUEL_STAGE_CHECK);
   m->checked = pl_model_check(&m->job, m->model);
   if (m->checked == PLEUEL_OK && m->diagnostics.n_errors > 0) m->checked = PLEUEL_MODEL_ERROR;
   if (m->checked == PLEUEL_MODEL_ERROR && only_contradictions(&m->diagnostics))
@@ -120,11 +122,13 @@ static pleuel_status derive_here(pleuel_model* m, const char* only, double secon
   how.user = staging;
   how.ready = m->ready;
   how.ready_user = m->ready_user;
+  pl_api_stage(m->ctx, PLEUEL_STAGE_DERIVE);
   m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
   m->is_derived = m->derived != PLEUEL_INTERRUPTED;
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_DERIVE, start);
   start = pl_clock();
+  if (m->derived == PLEUEL_OK && !structure) pl_api_stage(m->ctx, PLEUEL_STAGE_WITNESS);
   if (m->derived == PLEUEL_OK && !structure)
     pl_witness_hold(&m->job, m->solution, m->solution->stages.at, m->solution->stages.n);
   note_time(m, PL_STAGE_WITNESS, start);
@@ -156,6 +160,7 @@ pleuel_status pl_pipeline_structure(pleuel_model* m) {
 // recording before is forgotten with it.
 static pleuel_status record(pleuel_model* m, const char* sensitivities) {
   double start = pl_clock();
+  pl_api_stage(m->ctx, PLEUEL_STAGE_RECORD);
   m->result = NULL;
   pl_arena_rewind(m->recorded_in, m->recorded_empty);
   pl_arena* before = work_in(m, m->recorded_in);
@@ -238,14 +243,14 @@ static pleuel_status relay_columns(void* user, const pl_setup* setup) {
   return stop ? PLEUEL_INTERRUPTED : PLEUEL_OK;
 }
 
-typedef struct pl_watcher {
-  const pleuel_sim_options* options;
-  double t_0;
-} pl_watcher;
+// Numbers of a run for the one who looks: pl_interrupted calls it about ten times a second.
 static void watch(void* user, double t, double t_end, double h, const pl_stats* stats) {
-  pl_watcher* w = user;
-  pleuel_progress p = {t, w->t_0, t_end, h, stats->energy_drift, stats->steps};
-  w->options->progress(w->options->user, &p);
+  pleuel_progress* where = user;
+  where->t = t;
+  where->t_end = t_end;
+  where->step = h;
+  where->energy_drift = stats->energy_drift;
+  where->steps = stats->steps;
 }
 
 // What is proven is proven for the coordinates as declared.
@@ -275,9 +280,10 @@ static pleuel_status start(pleuel_model* m, const pleuel_sim_options* o, pl_run*
   if (o->has_dt && m->exact) how.dt_exact = exact_time(m, o->dt_as_written);
   if (m->result) {
     how.sink = pl_result_sink(m->result);
-    if (o->csv)
-      m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->motion, o->csv)
-                                                : pl_csv_sink(m->motion, o->csv);
+    if (m->csv)
+      m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->motion, m->csv)
+                                                : pl_csv_sink(m->motion, m->csv);
+    else if (o->csv) m->result->next = pl_csv_sink_to(m->motion, o->csv, o->csv_user);
     else if (o->row) {
       pl_relay* relay = PL_NEW(m->motion, pl_relay);
       *relay = (pl_relay){
@@ -288,12 +294,10 @@ static pleuel_status start(pleuel_model* m, const pleuel_sim_options* o, pl_run*
       m->result->next = (pl_sink){.user = relay, .begin = relay_columns, .row = relay_row};
     }
   }
-  if (o->progress) {
-    pl_watcher* w = PL_NEW(m->motion, pl_watcher);
-    *w = (pl_watcher){o, how.t_0};
-    how.progress = watch;
-    how.progress_user = w;
-  }
+  pleuel* ctx = m->ctx;
+  how.places = &ctx->places;
+  how.progress = watch;
+  how.progress_user = &ctx->where;
   // a run that goes on starts without a sink: what the start tells has been told
   pl_sink sink = how.sink;
   bool resumes = m->keeping && o->resume;
@@ -303,6 +307,8 @@ static pleuel_status start(pleuel_model* m, const pleuel_sim_options* o, pl_run*
     how.keep_user = m->keeping;
     if (resumes) how.sink = (pl_sink){0};
   }
+  pl_api_stage(ctx, PLEUEL_STAGE_RUN);
+  ctx->where.t_begin = how.t_0;
   PL_TRY(pl_run_make(&m->job, setup, &how, out));
   pl_recording* plain = NULL;
   if (r->n_directions) PL_TRY(pl_record(&m->job, m->model, NULL, false, &plain));
@@ -345,6 +351,8 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   if (o->certify && !(o->certify_width >= 0 && o->certify_width < 1e-4)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "the width of an enclosure lies between 0 and 1e-4");
   }
+  if (o->state && !o->csv_file && o->csv)
+    return pl_fail(&m->job, PLEUEL_USAGE, "a state goes with rows in a file: csv_file");
   if (o->certify && o->resume)
     return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
   return PLEUEL_OK;
@@ -380,7 +388,7 @@ static void tell_inelastic(pleuel_model* m) {
 }
 
 // setup -> motion
-static pleuel_status run(pleuel_model* m, const pleuel_sim_options* o) {
+static pleuel_status run_whole(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
   pl_pipeline_forget_run(m);
   m->run_message[0] = '\0';
@@ -411,6 +419,19 @@ static pleuel_status run(pleuel_model* m, const pleuel_sim_options* o) {
   note_time(m, PL_STAGE_RUN, start);
   pleuel_status proved = pl_certify_end_of_run(m, o);
   return m->run == PLEUEL_OK ? proved : m->run;
+}
+
+// With the file of rows open.
+static pleuel_status run(pleuel_model* m, const pleuel_sim_options* o) {
+  m->csv = NULL;
+  if (!o->csv_file) return run_whole(m, o);
+  m->csv = fopen(o->csv_file, o->resume ? "r+" : "w+");
+  if (!m->csv) return pl_fail(&m->job, PLEUEL_FILE, "%s: %s", o->csv_file, strerror(errno));
+  pleuel_status s = run_whole(m, o);
+  bool bad = fclose(m->csv) != 0;
+  m->csv = NULL;
+  if (!bad || s != PLEUEL_OK) return s;
+  return pl_fail(&m->job, PLEUEL_FILE, "%s: %s", o->csv_file, strerror(errno));
 }
 
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {

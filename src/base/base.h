@@ -260,6 +260,12 @@ typedef struct pl_job {
   double deadline_s;
 } pl_job;
 
+// Where compiled steps are kept and the compiler plug-in lies; NULL in it: the usual place.
+// cache "": nothing is kept.
+typedef struct pl_jit_places {
+  const char *cache, *plugin;
+} pl_jit_places;
+
 // pl_fail records status and sentence and returns the status: return pl_fail(job, PLEUEL_SINGULAR,
 // "...", x);
 pleuel_status pl_fail(pl_job* job, pleuel_status s, const char* fmt, ...)

@@ -29,14 +29,20 @@ static bool own_folder(char* folder) {
 }
 
 // In the build tree below and beside the program, its tests and the library; then as installed.
-static const char* const places[] = {"src/jit", "../jit", "../../src/jit", PL_PLUGIN_FROM_BIN,
-                                     PL_PLUGIN_FROM_LIB};
+static const char* const usual_places[] = {"src/jit", "../jit", "../../src/jit", PL_PLUGIN_FROM_BIN,
+                                           PL_PLUGIN_FROM_LIB};
+
+static const char* plugin_folder;  // of the first that asks; read once, under pthread_once
 
 static void* open_plugin(void) {
   char folder[PATH_MAX], path[PATH_MAX + 96];
+  if (plugin_folder && strlen(plugin_folder) < PATH_MAX) {
+    snprintf(path, sizeof path, "%s/" PL_PLUGIN_FILE, plugin_folder);
+    return dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  }
   if (own_folder(folder)) {
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-      snprintf(path, sizeof path, "%s/%s/" PL_PLUGIN_FILE, folder, places[i]);
+    for (size_t i = 0; i < sizeof usual_places / sizeof *usual_places; i++) {
+      snprintf(path, sizeof path, "%s/%s/" PL_PLUGIN_FILE, folder, usual_places[i]);
       if (access(path, R_OK) == 0) {
         void* found = dlopen(path, RTLD_NOW | RTLD_LOCAL);
         if (found) return found;
@@ -69,8 +75,13 @@ static void open_once(void) {
   else snprintf(trouble, sizeof trouble, "the compiler plugin is of another version");
 }
 
-bool pl_jit_available(const char** why) {
+bool pl_jit_available(const char** why, const pl_jit_places* places) {
+  static pthread_mutex_t first = PTHREAD_MUTEX_INITIALIZER;
+  pthread_mutex_lock(&first);
+  if (places && places->plugin) plugin_folder = places->plugin;
   pthread_once(&once, open_once);
+  plugin_folder = NULL;
+  pthread_mutex_unlock(&first);
   if (why) *why = trouble;
   return plugin != NULL;
 }
@@ -93,31 +104,33 @@ static void* load(const unsigned char* object, size_t size, const pl_prog* const
   return plugin->load(object, size, progs, n, run, trouble, sizeof trouble);
 }
 
-static void* compile(const pl_prog* const* progs, int n, pl_prog_run** run, uint64_t key) {
+static void* compile(const pl_prog* const* progs, int n, pl_prog_run** run, uint64_t key,
+                     const char* cache) {
   unsigned char* object = NULL;
   size_t size = 0;
   if (!plugin->compile(progs, n, &object, &size, trouble, sizeof trouble)) return NULL;
   void* loaded = load(object, size, progs, n, run);
-  if (loaded) pl_store_put(key, object, size);
+  if (loaded) pl_store_put(cache, key, object, size);
   plugin->release(object);
   return loaded;
 }
 
 pl_jit_code* pl_jit_compile(pl_arena* a, const pl_prog* const* progs, int n, pl_prog_run** run,
-                            pl_jit_story* story) {
+                            pl_jit_story* story, const pl_jit_places* places) {
+  const char* cache = places ? places->cache : NULL;
   pl_jit_story none;
   if (!story) story = &none;
   *story = (pl_jit_story){0};
-  if (!pl_jit_available(NULL)) return NULL;
+  if (!pl_jit_available(NULL, places)) return NULL;
   double begin = pl_clock();
   pthread_mutex_lock(&at_work);
   uint64_t key = key_of(progs, n);
   size_t size = 0;
-  unsigned char* object = pl_store_get(key, &size);
+  unsigned char* object = pl_store_get(cache, key, &size);
   void* loaded = object ? load(object, size, progs, n, run) : NULL;
   free(object);
   story->stored = loaded != NULL;
-  if (!loaded) loaded = compile(progs, n, run, key);
+  if (!loaded) loaded = compile(progs, n, run, key, cache);
   pthread_mutex_unlock(&at_work);
   story->seconds = pl_clock() - begin;
   if (!loaded) return NULL;

@@ -6,7 +6,8 @@
 
 // ---- store.c: objects on disk. Everything that goes wrong there only means that an object is not
 // found. from malloc; NULL: not there, or damaged
-unsigned char* pl_store_get(uint64_t key, size_t* size);
-void pl_store_put(uint64_t key, const unsigned char* object, size_t size);
+// cache: NULL the usual folder, "" none.
+unsigned char* pl_store_get(const char* cache, uint64_t key, size_t* size);
+void pl_store_put(const char* cache, uint64_t key, const unsigned char* object, size_t size);
 
 #endif

@@ -4,8 +4,9 @@
 
 #include "program/program.h"
 
-bool pl_jit_available(const char** why);  // opens it; why: what stands in the way
-typedef struct pl_jit_code pl_jit_code;   // must be freed
+bool pl_jit_available(const char** why,
+                      const pl_jit_places* places);  // opens it; why: what stands in the way
+typedef struct pl_jit_code pl_jit_code;              // must be freed
 // came from disk; how long it took
 typedef struct pl_jit_story {
   bool stored;
@@ -13,7 +14,7 @@ typedef struct pl_jit_story {
 } pl_jit_story;
 // run[i] is the function of progs[i]; their names must differ.  NULL: pl_jit_available says why.
 pl_jit_code* pl_jit_compile(pl_arena* a, const pl_prog* const* progs, int n, pl_prog_run** run,
-                            pl_jit_story* story);
+                            pl_jit_story* story, const pl_jit_places* places);
 void pl_jit_free(pl_jit_code* code);
 
 #endif

@@ -265,7 +265,7 @@ static void compile_and_compare(pl_random* r, int lanes, bool means) {
   memcpy(n, m, (size_t)t->size * sizeof *m);
   const pl_prog* progs[] = {t->value, t->order};
   pl_prog_run* run[2];
-  pl_jit_code* code = pl_jit_compile(t->arena, progs, 2, run, NULL);
+  pl_jit_code* code = pl_jit_compile(t->arena, progs, 2, run, NULL, NULL);
   assert_non_null(code);
   pl_prog_interpret(t->value, m, 0, 1);
   pl_prog_interpret(t->order, m, 1, ORDERS);
@@ -284,7 +284,7 @@ static void compile_and_compare(pl_random* r, int lanes, bool means) {
 static void compiled_random_tapes_have_the_bits_of_the_interpreter(void** state) {
   (void)state;
   const char* why;
-  if (!pl_jit_available(&why)) {
+  if (!pl_jit_available(&why, NULL)) {
     print_message("# SKIP: %s\n", why);
     skip();
   }
@@ -297,7 +297,7 @@ static void compiled_random_tapes_have_the_bits_of_the_interpreter(void** state)
 
 static void products_and_rows_of_sums_have_the_same_bits(void** state) {
   (void)state;
-  if (!pl_jit_available(NULL)) skip();
+  if (!pl_jit_available(NULL, NULL)) skip();
   enum { N = 13, SIZE = 4096 };
   pl_arena* a = pl_arena_make(NULL);
   pl_random r = {seed_of("products")};
@@ -316,7 +316,7 @@ static void products_and_rows_of_sums_have_the_same_bits(void** state) {
   for (int i = 0; i < SIZE; i++) m[i] = n[i] = pl_random_between(&r, -1, 1);
   const pl_prog* progs[] = {p};
   pl_prog_run* run;
-  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, NULL);
+  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, NULL, NULL);
   assert_non_null(code);
   pl_prog_interpret(p, m, 0, 7);
   run(n, 0, 7);
@@ -370,7 +370,7 @@ static pl_prog* write_series(pl_arena* a, int orders) {
 
 static void orders_written_out_have_the_same_bits(void** state) {
   (void)state;
-  if (!pl_jit_available(NULL)) skip();
+  if (!pl_jit_available(NULL, NULL)) skip();
   enum { ORDERS_HERE = 13, SIZE = 4096, STREAMS = 384, OUTPUTS = 832 };
   pl_arena* a = pl_arena_make(NULL);
   pl_random r = {seed_of("written out")};
@@ -387,7 +387,7 @@ static void orders_written_out_have_the_same_bits(void** state) {
   p->orders = ORDERS_HERE;
   const pl_prog* progs[] = {p};
   pl_prog_run* run;
-  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, NULL);
+  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, NULL, NULL);
   assert_non_null(code);
   run(n, 1, ORDERS_HERE);
   assert_memory_equal(m, n, STREAMS * sizeof *m);
@@ -415,7 +415,7 @@ static bool compile_small(pl_jit_story* story) {
   double m[16] = {1.5, 2.25};
   const pl_prog* progs[] = {p};
   pl_prog_run* run = NULL;
-  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, story);
+  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, story, NULL);
   if (code) run(m, 0, 1);
   pl_jit_free(code);
   pl_arena_free(a);
@@ -424,7 +424,7 @@ static bool compile_small(pl_jit_story* story) {
 
 static void a_damaged_object_is_compiled_again(void** state) {
   (void)state;
-  if (!pl_jit_available(NULL)) skip();
+  if (!pl_jit_available(NULL, NULL)) skip();
   char folder[] = "/tmp/pleuel-store-XXXXXX", command[64];
   assert_non_null(mkdtemp(folder));
   setenv("XDG_CACHE_HOME", folder, 1);

@@ -37,7 +37,17 @@ static bool make_folder(const char* path) {
          && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-static bool folder(char* path, bool make) {
+// The folder of the caller is used as it is.
+static bool own_folder_of(const char* cache, char* path, bool make) {
+  int n = snprintf(path, PATH_MAX, "%s", cache);
+  struct stat s;
+  if (cache[0] == '\0' || n < 0 || n > PATH_MAX - 96) return false;
+  if (make) return make_folder(path);
+  return stat(path, &s) == 0 && s.st_uid == geteuid() && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+static bool folder(const char* given, char* path, bool make) {
+  if (given) return own_folder_of(given, path, make);
   const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME"),
              *off = getenv("PLEUEL_CACHE");
   int n;
@@ -54,8 +64,8 @@ static bool folder(char* path, bool make) {
                     && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-static bool file_of(char* path, uint64_t key, bool make) {
-  if (!folder(path, make)) return false;
+static bool file_of(const char* cache, char* path, uint64_t key, bool make) {
+  if (!folder(cache, path, make)) return false;
   size_t n = strlen(path);
   snprintf(path + n, PATH_MAX - n, "/%016llx.o", (unsigned long long)key);
   return true;
@@ -91,9 +101,9 @@ static unsigned char* read_object(int file, uint64_t key, size_t* size) {
   return NULL;
 }
 
-unsigned char* pl_store_get(uint64_t key, size_t* size) {
+unsigned char* pl_store_get(const char* cache, uint64_t key, size_t* size) {
   char path[PATH_MAX];
-  if (!file_of(path, key, false)) return NULL;
+  if (!file_of(cache, path, key, false)) return NULL;
   int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return NULL;
   unsigned char* object = read_object(file, key, size);
@@ -152,9 +162,9 @@ static void trim(const char* path) {
   closedir(d);
 }
 
-void pl_store_put(uint64_t key, const unsigned char* object, size_t size) {
+void pl_store_put(const char* cache, uint64_t key, const unsigned char* object, size_t size) {
   char path[PATH_MAX], draft[PATH_MAX + 8];
-  if (size > largest || !file_of(path, key, true)) return;
+  if (size > largest || !file_of(cache, path, key, true)) return;
   pl_store_head head = {.key = key, .size = size, .hash = pl_hash_bytes(object, size, key)};
   memcpy(head.magic, magic, sizeof magic);
   snprintf(draft, sizeof draft, "%s.XXXXXX", path);

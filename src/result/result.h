@@ -58,6 +58,8 @@ double pl_result_last(const pl_result* r, const char* name);  // NaN if absent
 // ferror and closes it.
 pl_sink pl_csv_sink(pl_arena* a, FILE* file);
 // The same behind a header and rows that are there already.
+// The same to a function of the caller, in blocks.
+pl_sink pl_csv_sink_to(pl_arena* a, pleuel_write_function* write, void* user);
 pl_sink pl_csv_sink_behind(pl_arena* a, FILE* file);
 pleuel_status pl_result_write_csv(const pl_result* r, FILE* file);
 

@@ -323,6 +323,7 @@ typedef struct pl_run_options {
   pl_precision precision;
   // in three parts, for extended numbers; NULL: as the setup says, or the double
   const double *t_end_exact, *dt_exact;
+  const pl_jit_places* places;  // of compiled steps; NULL: the usual ones
 } pl_run_options;
 
 typedef struct pl_run pl_run;

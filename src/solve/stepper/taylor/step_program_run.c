@@ -45,10 +45,10 @@ static void compile(pl_run* run, pl_step_program* o) {
       progs[n] = o->code[i];
       part[n++] = i;
     }
-  o->jit = pl_jit_compile(run->job->arena, progs, n, found, &story);
+  o->jit = pl_jit_compile(run->job->arena, progs, n, found, &story, run->options.places);
   run->stats.compile_s += story.seconds;
   if (o->jit == NULL) {
-    pl_jit_available(&run->stats.why_interpreted);
+    pl_jit_available(&run->stats.why_interpreted, run->options.places);
     return;
   }
   for (int i = 0; i < n; i++) o->compiled[part[i]] = found[i];
