@@ -65,6 +65,7 @@ static pleuel_status answer_all(pl_analysis* d) {
   note_friction(d);
   if (d->model->asks.n == 0) answer_standard(d);
   for (int k = 0; k < d->model->asks.n; k++) {
+    pl_job_done(d->job, k, d->model->asks.n);
     if (pl_interrupted(d->job))
       return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k,
                      d->model->asks.n);
