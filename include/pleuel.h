@@ -1,7 +1,8 @@
 /* pleuel: constrained classical mechanics, from a model text to a worked solution and the motion.
  *
- * This header is the whole public interface.  It reads from top to bottom as a course: one call that does it all,
- * then the steps, then the options.  Strings are UTF-8.  Everything is SI inside.
+ * This header is the whole public interface.  It reads from top to bottom as a course: one call that
+ * does it all, then the steps, then the options.  docs/api.md shows it at work.  Strings are UTF-8.
+ * Numbers are SI.
  *
  *     pleuel *ctx = pleuel_open(NULL);
  *     pleuel_model *model;
@@ -11,11 +12,24 @@
  *     else puts(pleuel_message(ctx));
  *     pleuel_close(ctx);
  *
- * A context (pleuel*) and what was made from it belong to one thread at a time; several contexts may live in several
- * threads.  The library keeps no global state, prints nothing and never ends the process.
+ * Who owns what.  Objects are freed by the function of their section.  A text or an array that is
+ * handed out belongs to the object that was asked, and lives until the next call with that object, or
+ * until it is freed.  Where the comment says "kept", it lives as long as the object.  Texts of a
+ * context (pleuel_explain and so on) are kept.  Repeated work takes no more memory than work done once.
  *
- * Texts that are handed out belong to the object they came from and live as long as it does: those of a model until
- * pleuel_model_free, those of a context until pleuel_close.
+ * Threads.  A context and its models belong to one thread at a time; several contexts may live in
+ * several threads.  A system may be shared: all threads may open runs of it.  A run and a result
+ * belong to one thread at a time.  pleuel_interrupt and pleuel_run_interrupt may be called from any
+ * thread and from signal handlers.  The library prints nothing and never ends the process.
+ *
+ * Functions of the caller (callbacks) are called in the thread of the call that they were given to,
+ * before it returns.  They must return: not by longjmp, not by an exception of C++.  They must not
+ * use the object that is at work, but may interrupt it; other objects may be used.  A result other
+ * than 0 stops the call with PLEUEL_INTERRUPTED.
+ *
+ * Memory.  An allocator serves models, systems, runs and results, and must stand calls from every thread
+ * that uses one of them; `take` aligns as malloc does.  Allocator and memory limit do not cover what
+ * GMP, FLINT, KLU, LLVM and cairo take for themselves; the limit counts for each object.
  */
 #ifndef PLEUEL_H
 #define PLEUEL_H
@@ -95,7 +109,7 @@ void pleuel_interrupt_clear(pleuel *ctx);
 /* Structures that carry options, and those that come back, grow with later versions, at their ends.
  * Their first member is the size that the caller was compiled with.  PLEUEL_OPTIONS declares one, sets
  * the size, and every other member to 0, which is its default:
- *     PLEUEL_OPTIONS(pleuel_write_options, how);
+ *     PLEUEL_OPTIONS(pleuel_solve_options, how);
  *     how.lang = "de";
  * Where options are taken, NULL stands for the defaults.  A size of 0 is PLEUEL_USAGE, so that
  * forgotten sizes are noticed.  Of a structure that comes back, `size` bytes are filled. */
