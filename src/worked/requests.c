@@ -156,7 +156,7 @@ void pl_answer_one(pl_analysis* d, const pl_ask* ask) {
   a->page->base = base;
   a->page->section = d->page->section;
   a->page->open_told = d->page->open_told;
-  a->stage = d->stage;
+  a->stage = base->stage;
   answer_with(a, &own);
   d->page->section = a->page->section;
   d->page->open_told = a->page->open_told;

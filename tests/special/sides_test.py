@@ -117,6 +117,11 @@ def check_where(program):
     tap.check("and where the formulas end is said", "leaves 9 + 5 x ≥ 0 before, at x = -1.8" in words(far), words(far))
     v = math.sqrt(26.86 / 0.95)
     tap.check("a start on the other side has the formulas of that side", abs(other["values"][0]["number"] - v) < 1e-9, other["values"])
+    # from the other side through the zero length, back to the side of `init`
+    document, code = solve(program, SPRING + "ask x' where x = -1 from x = -3 at rest\nsimulate 0..1\n")
+    back = items(document, "x' where x = -1 from x = -3 at rest")[0]
+    tap.check("a start on the other side ends where its own formulas end",
+              code == 0 and not back["values"] and "leaves 9 + 5 x ≤ 0 before, at x = -1.8" in words(back), (words(back), document["checks"]))
 
 
 def check_borders(program):
