@@ -139,6 +139,7 @@ static void add_trails(pl_stage* s) {
 typedef enum pl_arrow_kind {
   PL_ARROW_WEIGHT,
   PL_ARROW_BOND,
+  PL_ARROW_ROD,
   PL_ARROW_LOAD,
   PL_ARROW_VELOCITY
 } pl_arrow_kind;
@@ -146,11 +147,12 @@ typedef struct pl_arrow {
   pl_arrow_kind kind;
   int thing, n;
   pl_spot spot;
+  pl_spot other;  // rod: its other end
   const pl_constraint* c;
   bool minus;    // λ is shown with the other sign
   pl_expr e[3];  // weight, load, velocity: components
   int q[8];
-  pl_expr slope[8], J[3][8];  // dg/dq, d place/dq
+  pl_expr slope[8], J[3][8];  // dg/dq, d place/dq; rod: of the place seen from the other end
   double* per_metre;
 } pl_arrow;
 
@@ -167,8 +169,46 @@ static bool bond_force(pl_stage* s, const pl_arrow* a, double F[3]) {
   return pl_least(A, b, a->n, 3, F);
 }
 
+// The direction of a rod, from its other end to this one.
+static bool along_rod(pl_stage* s, const pl_arrow* a, double e[3]) {
+  double here[3], there[3], length = 0;
+  pl_stage_spot(s, &a->spot, here);
+  pl_stage_spot(s, &a->other, there);
+  for (int j = 0; j < 3; j++) {
+    e[j] = here[j] - there[j];
+    length += e[j] * e[j];
+  }
+  for (int j = 0; j < 3; j++) e[j] /= sqrt(length);
+  return isfinite(e[0] + e[1] + e[2]);
+}
+
+// The force f along a rod at this end, for λ = 1: f times the change of its length is dg/dq for
+// every coordinate. A guide takes part of the force, so that the place of the mass alone does not
+// tell the whole.
+static bool rod_force(pl_stage* s, const pl_arrow* a, double F[3]) {
+  double e[3], stretch_slope = 0, stretch_stretch = 0;
+  if (!along_rod(s, a, e)) return false;
+  for (int k = 0; k < a->n; k++) {
+    double stretch = 0;
+    for (int j = 0; j < 3; j++) stretch += e[j] * pl_stage_eval(s, a->J[j][k]);
+    stretch_slope += stretch * pl_stage_eval(s, a->slope[k]);
+    stretch_stretch += stretch * stretch;
+  }
+  for (int j = 0; j < 3; j++) F[j] = stretch_slope / stretch_stretch * e[j];
+  return isfinite(F[0] + F[1] + F[2]);
+}
+
+static bool loaded_rod_force(pl_stage* s, const pl_arrow* a, double F[3]) {
+  double lambda = pl_stage_eval(s, pl_sym(s->pool, a->c->lambda));
+  if (a->minus) lambda = -lambda;
+  if (!rod_force(s, a, F)) return false;
+  for (int j = 0; j < 3; j++) F[j] *= lambda;
+  return isfinite(F[0] + F[1] + F[2]);
+}
+
 static bool vector_of(pl_stage* s, const pl_arrow* a, double F[3]) {
   if (a->kind == PL_ARROW_BOND) return bond_force(s, a, F);
+  if (a->kind == PL_ARROW_ROD) return loaded_rod_force(s, a, F);
   for (int j = 0; j < 3; j++) F[j] = pl_is_poison(a->e[j]) ? 0 : pl_stage_eval(s, a->e[j]);
   return isfinite(F[0] + F[1] + F[2]);
 }
@@ -313,6 +353,52 @@ static bool bond_arrow(pl_stage* s, const pl_bond* b, const pl_thing* on, const 
   return explains(s, out);
 }
 
+static pl_expr slope_of_place(pl_stage* s, const pl_spot* spot, int axis, int q) {
+  bool still = spot->fixed || pl_is_poison(spot->e[axis]);
+  return still ? pl_int(s->pool, 0) : pl_diff(s->pool, spot->e[axis], s->q[q]);
+}
+
+// The force along the rod works on this end as the constraint does, for all its coordinates. Not
+// where g holds a component of its place at a number that has a constraint of its own: that one
+// shows the rest.
+static bool rod_explains(pl_stage* s, const pl_bond* b, const pl_thing* on, const pl_arrow* a) {
+  static const double clear = 1e-7;
+  double F[3], off = 0, size = 0;
+  if (!rod_force(s, a, F)) return false;
+  for (int k = 0; k < on->deps.n; k++) {
+    double slope = pl_stage_eval(s, pl_diff(s->pool, b->c->g, s->q[on->deps.at[k]]));
+    double work = 0;
+    for (int j = 0; j < 3; j++)
+      work += F[j] * pl_stage_eval(s, slope_of_place(s, &on->spot, j, on->deps.at[k]));
+    off += (work - slope) * (work - slope);
+    size += slope * slope;
+  }
+  double whole = F[0] * F[0] + F[1] * F[1] + F[2] * F[2];
+  return whole > 0 && off <= clear * clear * (size + whole);
+}
+
+// A rod between two things pulls or pushes along itself.
+static bool rod_arrow(pl_stage* s, const pl_bond* b, int thing, pl_arrow* out) {
+  bool is_end = b->pair && (b->end[0] == thing || b->end[1] == thing);
+  if (!is_end || b->deps.n > 8) return false;
+  const pl_thing* on = &s->things.at[thing];
+  const pl_thing* far = &s->things.at[b->end[0] == thing ? b->end[1] : b->end[0]];
+  *out = (pl_arrow){.kind = PL_ARROW_ROD,
+                    .spot = on->spot,
+                    .other = far->spot,
+                    .c = b->c,
+                    .minus = s->model->lambda_minus,
+                    .n = b->deps.n};
+  for (int k = 0; k < out->n; k++) {
+    int q = b->deps.at[k];
+    out->slope[k] = pl_diff(s->pool, b->c->g, s->q[q]);
+    for (int j = 0; j < 3; j++)
+      out->J[j][k] = pl_sub(s->pool, slope_of_place(s, &on->spot, j, q),
+                            slope_of_place(s, &far->spot, j, q));
+  }
+  return rod_explains(s, b, on, out);
+}
+
 static void keep_bond_arrow(pl_stage* s, int thing, const pl_arrow* found) {
   const pl_constraint* c = found->c;
   pl_arrow* a = add_arrow(s, PL_ARROW_BOND, thing, c->multiplier ? c->multiplier : c->name.text,
@@ -354,7 +440,7 @@ static void add_bond_forces(pl_stage* s) {
       const pl_thing* t = &s->things.at[k];
       pl_arrow a;
       if (pl_is_poison(t->mass) || !own_coordinates(s, k, b)) continue;
-      bool found = bond_arrow(s, b, t, &t->spot, &a);
+      bool found = rod_arrow(s, b, k, &a) || bond_arrow(s, b, t, &t->spot, &a);
       for (int p = 0; p < s->things.n && !found; p++) {
         const pl_thing* point = &s->things.at[p];
         if (t->body && point->kind == PL_THING_POINT) found = bond_arrow(s, b, t, &point->spot, &a);

@@ -135,6 +135,12 @@ static void draw_distance(pl_stage* s, pl_bond* b, const pl_spot* from, const pl
   }
 }
 
+static void keep_ends(pl_bond* b, int one, int other) {
+  b->pair = true;
+  b->end[0] = one;
+  b->end[1] = other;
+}
+
 static bool draw_pair(pl_stage* s, pl_bond* b) {
   int near[8], n = 0;
   for (int i = 0; i < s->things.n && n < 8; i++) {
@@ -149,6 +155,7 @@ static bool draw_pair(pl_stage* s, pl_bond* b) {
       pl_thing *a = &s->things.at[near[i]], *c = &s->things.at[near[j]];
       if (!keeps_distance(s, b, &a->spot, &c->spot)) continue;
       draw_distance(s, b, &a->spot, &c->spot);
+      keep_ends(b, near[i], near[j]);
       a->linked = c->linked = true;
       return true;
     }
@@ -159,6 +166,7 @@ static bool draw_pair(pl_stage* s, pl_bond* b) {
       if (c->kind != PL_THING_POINT || c->deps.n > 0 || !keeps_distance(s, b, &c->spot, &a->spot))
         continue;
       draw_distance(s, b, &c->spot, &a->spot);
+      keep_ends(b, near[i], j);
       a->linked = true;
       return true;
     }

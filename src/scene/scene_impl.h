@@ -80,6 +80,8 @@ typedef struct pl_bond {
   double touch_place[2];   // on the body, as in a spot
   pl_hint hint;
   int settles;  // coordinate that it holds at a constant, -1
+  bool pair;    // g is a function of the distance of two things alone
+  int end[2];   // these things
 } pl_bond;
 
 // picture of each axis

@@ -234,6 +234,26 @@ run("plot", fourbar, "-o", "fourbar.svg", "--show", "drawing")
 shown = texts(parsed(work / "fourbar.svg"))
 check("a force is drawn where it acts: at the joint, once", shown.count("j1x") == 1 and shown.count("j1y") == 1, shown)
 check("no arrow where virtual work does not give a force", not {"drive", "j2x", "j2y"} & set(shown), shown)
+crank = model("coupler.pleuel", """param m1 = 1 [kg], m2 = 2 [kg], r = 0.1 [m], l = 0.3 [m], g = 9.81 [m/s^2]
+coord x1, y1, x2
+mass A: m1 at (x1, y1)
+mass B: m2 at (x2, 0)
+gravity g along -y
+constraint crank: x1^2 + y1^2 = r^2
+constraint coupler: (x2 - x1)^2 + y1^2 = l^2
+branch x2 > x1
+init x1 = 0.06, y1 = 0.08, x1' = 0.4
+simulate 0..0.1 [s]
+""")
+run("plot", crank, "-o", "coupler.svg", "--show", "drawing")
+arrows = [(q[0] - p[0], q[1] - p[1]) for p, q in
+          (points(a)[:2] for a in of_class(parsed(work / "coupler.svg"), "pl-force"))]
+opposite = [(a, b) for i, a in enumerate(arrows) for b in arrows[i + 1:]
+            if math.hypot(a[0] + b[0], a[1] + b[1]) < 0.05 * math.hypot(*a)]
+rod = [math.atan2(b, a) for a, b in (p for p in opposite[:1] for p in p)]
+slope = math.atan2(0.08, math.sqrt(0.3**2 - 0.08**2))
+check("a rod to a mass on a guide pulls both of its ends along itself", len(opposite) == 1 and
+      all(abs(math.sin(a - slope)) < 0.05 for a in rod), (arrows, slope))
 phase = model("phase.pleuel", pendulum.read_text() + "plot y vs x\n")
 run("plot", phase, "-o", "phase.svg", "--show", "plots")
 svg = parsed(work / "phase.svg")
