@@ -150,7 +150,6 @@ void pl_api_copy(void* to, size_t size, const void* from) {
 pleuel_status pl_api_take(pleuel* ctx, void* to, size_t size, const void* from) {
   size_t given = 1;
   if (from) memcpy(&given, from, sizeof given);
-  ctx->message[0] = '\0';
   if (given == 0)
     return pl_api_fail(ctx, PLEUEL_USAGE,
                        "options without their size: declare them with PLEUEL_OPTIONS");
