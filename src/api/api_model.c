@@ -252,11 +252,11 @@ const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities,
                                     const pleuel_text_options* options) {
   if (!m) return NULL;
   pleuel_text_options o;
-  if (pl_api_take(m->ctx, &o, sizeof o, options) != PLEUEL_OK) return NULL;
-  pl_telling t = {severities, {pl_api_language_of(m, o.lang), o.colour, o.terse}, NULL};
   char sentence[sizeof m->ctx->message];
   // telling about a failure must not hide its sentence
   memcpy(sentence, m->ctx->message, sizeof sentence);
+  if (pl_api_take(m->ctx, &o, sizeof o, options) != PLEUEL_OK) return NULL;
+  pl_telling t = {severities, {pl_api_language_of(m, o.lang), o.colour, o.terse}, NULL};
   pl_api_guarded(m, tell, &t);
   if (!m->broken) memcpy(m->ctx->message, sentence, sizeof sentence);
   return t.text;
