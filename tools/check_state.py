@@ -14,7 +14,7 @@ STRUCTS = {
     "pl_dae": ("dae/dae.h", r"(?:run->)?dae"),
     "pl_control": ("stepper/stepper.h", r"run->control"),
     "pl_events": ("event/event.h", r"run->event"),
-    "pl_output": ("driver_impl.h", r"run->output"),
+    "pl_output_state": ("driver_impl.h", r"run->output"),
     "pl_taylor": ("stepper/taylor/taylor_impl.h", r"run->taylor"),
     "pl_kkt": ("dae/dae.h", "kkt|k"),
     "pl_watch": ("event/event.h", r"watch\[i\]"),

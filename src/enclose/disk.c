@@ -485,7 +485,8 @@ void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* 
 }
 
 // ------------------------------------------------------------------------------- by the derivative
-// A function whose partner w was computed before it: |f(z) - f(x)| <= |z - x| sup |f'|, the supremum
+// A function whose partner w was computed before it: |f(z) - f(x)| <= |z - x| sup |f'|, the
+// supremum
 // over the disk, which is convex.
 bool pl_disk_by_slope(pl_disk* z, pl_op op, const pl_disk* x, const pl_disk* w) {
   if (pl_op_reads_as_w[op] != PL_OPERAND_PARTNER || w == NULL) return false;

@@ -39,7 +39,8 @@ void pl_disk_bound(mag_t out, const pl_disk* d);  // of |z|
 // d = op(a, b, c); false when the operation is not analytic on the disks, or a branch is not
 // decided there.
 bool pl_disk_op(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c);
-// The same for an elementary function of one argument by its derivative; w: the disk of its partner.
+// The same for an elementary function of one argument by its derivative; w: the disk of its
+// partner.
 bool pl_disk_by_slope(pl_disk* z, pl_op op, const pl_disk* x, const pl_disk* w);
 // Its derivative from those of the operands: d w/ds with da/ds, db/ds, dc/ds; value w, partner p.
 void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b,
@@ -149,7 +150,7 @@ double pl_ball_double(arb_srcptr x);
 pl_certify_end pl_enclose_start(pl_system* s, pl_certified* out, arb_srcptr t);
 
 // ---- enclose_step.c
-typedef struct pl_stepper {
+typedef struct pl_enclosure_stepper {
   pl_system* s;
   int direction;             // of time: 1, -1
   double radius;             // of the disk of times of the last step, 0 before the first
@@ -160,16 +161,16 @@ typedef struct pl_stepper {
   mag_ptr reach_q, reach_v;  // how far q and v get from their start on the disk of times    (n_q)
   mag_ptr pull;              // bounds of |a|                                                (n_q)
   double work;               // done so far, in units of the budget
-} pl_stepper;
-void pl_stepper_make(pl_stepper* e, pl_system* s, int direction);
-void pl_stepper_free(pl_stepper* e);
+} pl_enclosure_stepper;
+void pl_stepper_make(pl_enclosure_stepper* e, pl_system* s, int direction);
+void pl_stepper_free(pl_enclosure_stepper* e);
 // A disk of times around t on which the motion is proved to exist, with bounds. false: none is
 // found.
-bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest);
+bool pl_step_prove(pl_enclosure_stepper* e, arb_srcptr t, double longest);
 // Series for a step of h, |h| < radius / 2; then the balls of q[0], v[0] after `part`, which lies
 // between 0 and h.
-bool pl_step_series(pl_stepper* e, arb_srcptr t, arb_srcptr h);
-void pl_step_take(pl_stepper* e, arb_srcptr part);
+bool pl_step_series(pl_enclosure_stepper* e, arb_srcptr t, arb_srcptr h);
+void pl_step_take(pl_enclosure_stepper* e, arb_srcptr part);
 // reach x^(p+1)/(1-x): what is left of a series bounded by reach on the disk of times.
 void pl_series_tail(mag_t out, mag_srcptr reach, const mag_t x, int p);
 
@@ -199,7 +200,8 @@ typedef enum pl_monitor_look {
 } pl_monitor_look;
 // Looks along the step h for the first function that changes sign. CLEAR: none. SHORTER: none up to
 // *part. HIT: one does, alone, and for the first time within the ball *part. LOST: not decided.
-pl_monitor_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit);
+pl_monitor_look pl_monitors_look(pl_enclosure_stepper* e, arb_srcptr h, arb_t part,
+                                 pl_monitor** hit);
 void pl_monitors_moved(pl_system* s);  // a step without change was taken
 
 struct pl_certified_balls {

@@ -16,7 +16,7 @@ static const double default_budget = 6e9;  // 10 to 20 s
 
 typedef struct pass {
   pl_system* s;
-  pl_stepper* e;
+  pl_enclosure_stepper* e;
   pl_certified* out;
   double budget;
   arb_t t, t_end;
@@ -166,7 +166,7 @@ static pl_certify_end happen(pass* z, pl_monitor* m) {
 // The series of a step that is proved, towards `target`. *there: it ends on it; then signs are
 // looked at some way further, since a zero may lie on the target.
 static pl_certify_end prepare(pass* z, arb_srcptr target, arb_t h, arb_t sight, bool* there) {
-  pl_stepper* e = z->e;
+  pl_enclosure_stepper* e = z->e;
   arb_sub(h, target, z->t, z->s->prec);
   double left = fabs(pl_ball_double(h));
   if (pl_interrupted(z->s->job)) return PL_CERTIFY_INTERRUPTED;
@@ -227,7 +227,7 @@ static pl_certify_end one_step(pass* z, arb_srcptr target, bool* there) {
 
 // To the exact time `target` in one or more steps, or to the event that stops the motion.
 static pl_certify_end go_to(pass* z, arb_srcptr target) {
-  pl_stepper* e = z->e;
+  pl_enclosure_stepper* e = z->e;
   for (bool there = false; !there && !z->stopped;) {
     pl_certify_end end = one_step(z, target, &there);
     if (end != PL_CERTIFIED) return end;
@@ -346,7 +346,7 @@ typedef struct whole {
   const pl_certify_problem* p;
   pl_certified* out;
   pl_system s;
-  pl_stepper e;
+  pl_enclosure_stepper e;
   pl_guard guard;        // here, because FLINT's abort leaves without ending it
   pleuel_status memory;  // PLEUEL_NO_MEMORY when the arena unwound
 } whole;

@@ -22,15 +22,16 @@ static const double smallest = 1e-9;
 static const double natural = 0.14;
 enum { MOST_TRIES = 140, MOST_BOUNDS = 8 };
 
-void pl_stepper_make(pl_stepper* e, pl_system* s, int direction) {
-  *e = (pl_stepper){.s = s, .direction = direction, .growth = natural, .highest = PL_CERTIFY_ORDER};
+void pl_stepper_make(pl_enclosure_stepper* e, pl_system* s, int direction) {
+  *e = (pl_enclosure_stepper){
+      .s = s, .direction = direction, .growth = natural, .highest = PL_CERTIFY_ORDER};
   e->reach_q = _mag_vec_init(s->n_q + 1);
   e->reach_v = _mag_vec_init(s->n_q + 1);
   e->pull = _mag_vec_init(s->n_q + 1);
   mag_init(e->x);
 }
 
-void pl_stepper_free(pl_stepper* e) {
+void pl_stepper_free(pl_enclosure_stepper* e) {
   if (!e->reach_q) return;
   _mag_vec_clear(e->reach_q, e->s->n_q + 1);
   _mag_vec_clear(e->reach_v, e->s->n_q + 1);
@@ -39,7 +40,7 @@ void pl_stepper_free(pl_stepper* e) {
 }
 
 // --------------------------------------------------------------------------------------- existence
-static void reach(pl_stepper* e, double radius) {
+static void reach(pl_enclosure_stepper* e, double radius) {
   pl_system* s = e->s;
   mag_t R, half, m;
   mag_init(R);
@@ -64,7 +65,7 @@ static void reach(pl_stepper* e, double radius) {
 }
 
 // Whether the bounds of |a| that were assumed hold; where not, they are enlarged.
-static bool bounds_hold(pl_stepper* e) {
+static bool bounds_hold(pl_enclosure_stepper* e) {
   bool hold = true;
   mag_t m, wider;
   mag_init(m);
@@ -81,7 +82,7 @@ static bool bounds_hold(pl_stepper* e) {
   return hold;
 }
 
-static bool prove_radius(pl_stepper* e, arb_srcptr t, double radius) {
+static bool prove_radius(pl_enclosure_stepper* e, arb_srcptr t, double radius) {
   pl_system* s = e->s;
   pl_disk* times = &s->scratch[1];
   // begin with the pull at the centre
@@ -100,7 +101,7 @@ static bool prove_radius(pl_stepper* e, arb_srcptr t, double radius) {
   return false;
 }
 
-bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest) {
+bool pl_step_prove(pl_enclosure_stepper* e, arb_srcptr t, double longest) {
   double radius = e->radius > 0 ? e->radius * stretch : longest / e->growth;
   double whole = longest / e->growth;  // enough for what is left
   if (radius > whole) radius = whole;
@@ -118,7 +119,7 @@ bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest) {
 
 // ------------------------------------------------------------------------------------------ series
 // Smallest order whose tail is below the rounding of the working precision.
-static int order_for(const pl_stepper* e, double x) {
+static int order_for(const pl_enclosure_stepper* e, double x) {
   double p = ceil((double)(e->s->prec + 4) / -log2(x));
   return p < 4 ? 4 : p > e->highest ? e->highest : (int)p;
 }
@@ -150,7 +151,7 @@ static void evaluate(arb_ptr series, arb_srcptr h, int p, const mag_t rest, slon
   arb_clear(y);
 }
 
-void pl_step_take(pl_stepper* e, arb_srcptr part) {
+void pl_step_take(pl_enclosure_stepper* e, arb_srcptr part) {
   pl_system* s = e->s;
   mag_t rest;
   mag_init(rest);
@@ -164,7 +165,7 @@ void pl_step_take(pl_stepper* e, arb_srcptr part) {
 }
 
 // x >= |h|/R
-static void set_ratio(pl_stepper* e, arb_srcptr h) {
+static void set_ratio(pl_enclosure_stepper* e, arb_srcptr h) {
   mag_t R;
   mag_init(R);
   arb_get_mag(e->x, h);
@@ -176,7 +177,7 @@ static void set_ratio(pl_stepper* e, arb_srcptr h) {
   mag_clear(R);
 }
 
-bool pl_step_series(pl_stepper* e, arb_srcptr t, arb_srcptr h) {
+bool pl_step_series(pl_enclosure_stepper* e, arb_srcptr t, arb_srcptr h) {
   pl_system* s = e->s;
   set_ratio(e, h);
   if (mag_cmp_2exp_si(e->x, -1) >= 0) return false;

@@ -11,7 +11,7 @@ typedef struct bench {
   double q_run, v_run;
   bool none;
   pl_system s;
-  pl_stepper e;
+  pl_enclosure_stepper e;
   arb_t t, h;
 } bench;
 

@@ -27,7 +27,7 @@ typedef struct pl_monitors {
 // The function looked at: f(τ) = sum c_k τ^k, k = fresh .. order, times sign, divided by τ^fresh,
 // and its tail.
 typedef struct look {
-  pl_stepper* e;
+  pl_enclosure_stepper* e;
   pl_monitors* all;
   const pl_monitor* m;
   int order;
@@ -342,7 +342,8 @@ static void merge(first* f, pl_monitor_look one, double safe, arb_srcptr root, p
   arb_clear(limit);
 }
 
-pl_monitor_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit) {
+pl_monitor_look pl_monitors_look(pl_enclosure_stepper* e, arb_srcptr h, arb_t part,
+                                 pl_monitor** hit) {
   pl_monitors* all = e->s->monitors;
   look k = {.e = e, .all = all, .h = h};
   first f = {.look = PL_LOOK_CLEAR, .safe = pl_ball_double(h)};

@@ -30,8 +30,8 @@
 //   hold_v first_a decision choice_kept n_decisions K_series W_coef reach
 // not kept of pl_events, lives within a moment: indeterminate
 // not kept of pl_events, where the lead run waits it goes there again: impacts
-// not kept of pl_output, follows from setup and options: mode_size
-// not kept of pl_output, lives within a step: out_now out_before mode mode_before
+// not kept of pl_output_state, follows from setup and options: mode_size
+// not kept of pl_output_state, lives within a step: out_now out_before mode mode_before
 // not kept of pl_run, follows from setup and options: observer job setup options n_q n_c order
 //   observers watched branches
 // not kept of pl_run, lives within a step: branch_value reference

@@ -6,7 +6,7 @@
 #include "solve/stepper/stepper.h"
 
 // Rows on their way to the sink.
-typedef struct pl_output {
+typedef struct pl_output_state {
   // rows
   double *out_now, *out_before;
   char *mode, *mode_before;
@@ -14,7 +14,7 @@ typedef struct pl_output {
   bool opened, begun, ended;
   bool refused;       // the sink wants no more rows
   double last_row_t;  // of a row that was not one before an event; NaN
-} pl_output;
+} pl_output_state;
 
 // ---- output.c
 extern const pl_observer pl_output_observer;

@@ -10,7 +10,7 @@ const char* const pl_event_kind_name[] = {"event", "release", "impact", "contact
 void pl_output_make(pl_run* run) {
   pl_arena* a = run->job->arena;
   const pl_setup* s = run->setup;
-  pl_output* o = run->output = PL_NEW(a, pl_output);
+  pl_output_state* o = run->output = PL_NEW(a, pl_output_state);
   o->out_now = PL_ARRAY(a, double, s->n_out + 1);
   o->out_before = PL_ARRAY(a, double, s->n_out + 1);
   o->mode_size = sizeof "free";

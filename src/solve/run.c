@@ -81,7 +81,7 @@ static pleuel_status count_tiny(pl_run* run, double h) {
 }
 
 // The step that the motion allows, up to the first thing that happens on it.
-static pleuel_status find_step(pl_run* run, pl_step* s) {
+static pleuel_status find_step(pl_run* run, pl_stepper_step* s) {
   PL_TRY(run->stepper->expand(run, s));
   while (!s->found) {
     s->root = run->event->n_watch > 0 ? pl_watch_first(run, s->h) : -1;
@@ -92,7 +92,7 @@ static pleuel_status find_step(pl_run* run, pl_step* s) {
 }
 
 // What is left behind by a step that is taken: rows, sides of what is watched, figures.
-static pleuel_status pass(pl_run* run, const pl_step* s) {
+static pleuel_status pass(pl_run* run, const pl_stepper_step* s) {
   PL_TRY(pl_output_grid(run, run->dae.t, run->dae.t + s->h));
   if (run->event->n_watch > 0) pl_watch_passed(run, s->h);
   if (run->event->n_watch > 0 && run->event->sunk >= 0)
@@ -109,7 +109,7 @@ static pleuel_status pass(pl_run* run, const pl_step* s) {
 }
 
 static pleuel_status step(pl_run* run) {
-  pl_step s = {.root = -1};
+  pl_stepper_step s = {.root = -1};
   for (int i = 0; i < run->n_steppers; i++)
     if (run->steppers[i] != run->stepper && run->steppers[i]->poll)
       PL_TRY(run->steppers[i]->poll(run));

@@ -51,7 +51,7 @@ bool pl_run_dense_row(pl_run* run, double t, double* q, double* v, double* a, do
   bool inside = run->control.h_last != 0
                 && dt * run->control.h_last >= -slack * fabs(run->control.h_last)
                 && fabs(dt) <= fabs(run->control.h_last) + slack;
-  if (!inside || run->extended || run->setup->n_attitudes > 0) return false;
+  if (!inside || run->stepper->row || run->setup->n_attitudes > 0) return false;
   pl_run_dense(run, t, q, v, lambda);
   if (a) pl_horner(run->dae.A_last, run->n_q, run->control.use_last - 1, dt, a);
   return true;

@@ -24,14 +24,14 @@ typedef struct pl_stepper pl_stepper;
 typedef struct pl_observer pl_observer;
 
 // A step on its way.
-typedef struct pl_step {
+typedef struct pl_stepper_step {
   double h;       // its length, signed
   double wanted;  // that of expand, before a root or a check shortened it
   double root;    // what ends it, in units of h: -1 nothing, 0 something at its start
   bool found;     // the state at its end stands in trial_q, trial_v
   double defect;  // what a longer attempt was off by, 0 none
   pl_projection projection;
-} pl_step;
+} pl_stepper_step;
 
 // Energies at the point.
 typedef struct pl_energy {
@@ -58,9 +58,9 @@ struct pl_stepper {
   // Accelerations and multipliers at the point; false: the equations do not determine them.
   bool (*enter)(pl_run* run);
   // The motion ahead.
-  pleuel_status (*expand)(pl_run* run, pl_step* s);
+  pleuel_status (*expand)(pl_run* run, pl_stepper_step* s);
   // The end of the step, at s->root where that is not negative.  Sets found or a shorter s->h.
-  pleuel_status (*state_at)(pl_run* run, pl_step* s);
+  pleuel_status (*state_at)(pl_run* run, pl_stepper_step* s);
   // Coefficients in units of the step of the watched quantity; returns how many.  NULL: those of
   // the series at the point.
   int (*polynomial)(const pl_run* run, int watch, double* c);
@@ -151,7 +151,7 @@ struct pl_run {
   struct pl_radau* radau;              // the implicit method, NULL without it
   struct pl_reference* reference;      // Runge-Kutta with fixed steps, NULL without it
   struct pl_events* event;             // what is watched, contacts, singular positions
-  struct pl_output* output;            // rows
+  struct pl_output_state* output;      // rows
   const pl_observer* observer;         // where events report
   const struct pl_lead* lead;          // of one with derivatives, NULL without it
   struct pl_sensitivity* sensitivity;  // the lead run of one with derivatives, NULL without it

@@ -177,8 +177,8 @@ void pl_radau_series(pl_run* run, pl_radau* r, double h);
 bool pl_radau_probe(pl_run* run, double h, double least, double* reach);
 
 double pl_radau_tol(double asked);  // the tolerance that it works to
-pleuel_status pl_radau_expand(pl_run* run, pl_step* s);
-pleuel_status pl_radau_state_at(pl_run* run, pl_step* s);
+pleuel_status pl_radau_expand(pl_run* run, pl_stepper_step* s);
+pleuel_status pl_radau_state_at(pl_run* run, pl_stepper_step* s);
 void pl_radau_changed(pl_run* run, bool shaken);
 
 // ---- radau_system.c

@@ -483,7 +483,7 @@ static pleuel_status prepare(pl_run* run, pl_radau* r) {
   return PLEUEL_OK;
 }
 
-pleuel_status pl_radau_expand(pl_run* run, pl_step* s) {
+pleuel_status pl_radau_expand(pl_run* run, pl_stepper_step* s) {
   pl_radau* r = run->radau;
   PL_TRY(prepare(run, r));
   s->h = choose_length(run, r);
@@ -503,7 +503,7 @@ pleuel_status pl_radau_expand(pl_run* run, pl_step* s) {
 }
 
 // What the next step begins with.
-static void note_step(pl_run* run, pl_radau* r, const pl_step* s) {
+static void note_step(pl_run* run, pl_radau* r, const pl_stepper_step* s) {
   double next = r->next;
   r->h_last = s->h;
   r->error_last = fmax(r->error, 1e-2);
@@ -520,7 +520,7 @@ static void note_step(pl_run* run, pl_radau* r, const pl_step* s) {
   if (run->options.method == PL_METHOD_AUTO && !cut && s->root < 0) pl_stiff_review(run, s->h);
 }
 
-pleuel_status pl_radau_state_at(pl_run* run, pl_step* s) {
+pleuel_status pl_radau_state_at(pl_run* run, pl_stepper_step* s) {
   pl_radau* r = run->radau;
   s->found = true;
   if (s->root > 0) {

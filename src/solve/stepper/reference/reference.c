@@ -122,7 +122,7 @@ static void fill_series(pl_run* run, double h) {
 }
 
 // ------------------------------------------------------------------------------------------ a step
-static pleuel_status expand(pl_run* run, pl_step* s) {
+static pleuel_status expand(pl_run* run, pl_stepper_step* s) {
   pl_reference* r = run->reference;
   const pl_dae* d = &run->dae;
   size_t n = (size_t)run->n_q * sizeof(double);
@@ -142,7 +142,7 @@ static pleuel_status expand(pl_run* run, pl_step* s) {
 }
 
 // The end stands there already: nothing shortens a step of this method.
-static pleuel_status state_at(pl_run* run, pl_step* s) {
+static pleuel_status state_at(pl_run* run, pl_stepper_step* s) {
   (void)run;
   s->found = true;
   return PLEUEL_OK;

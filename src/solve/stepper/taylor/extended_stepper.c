@@ -57,11 +57,11 @@ static pleuel_status begin(pl_run* run, double t) {
   return PLEUEL_OK;
 }
 
-static pleuel_status expand(pl_run* run, pl_step* s) {
+static pleuel_status expand(pl_run* run, pl_stepper_step* s) {
   return pl_taylor_step_expand(run, s, &extended);
 }
 
-static pleuel_status state_at(pl_run* run, pl_step* s) {
+static pleuel_status state_at(pl_run* run, pl_stepper_step* s) {
   return pl_taylor_step_state_at(run, s, &extended);
 }
 

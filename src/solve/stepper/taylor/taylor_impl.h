@@ -42,8 +42,10 @@ typedef struct pl_taylor_numbers {
 } pl_taylor_numbers;
 
 // ---- taylor_step.c: slots of both steppers
-pleuel_status pl_taylor_step_expand(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers);
-pleuel_status pl_taylor_step_state_at(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers);
+pleuel_status pl_taylor_step_expand(pl_run* run, pl_stepper_step* s,
+                                    const pl_taylor_numbers* numbers);
+pleuel_status pl_taylor_step_state_at(pl_run* run, pl_stepper_step* s,
+                                      const pl_taylor_numbers* numbers);
 
 // ---- taylor_series.c
 enum { PL_BLOCK_ROWS = 6 };

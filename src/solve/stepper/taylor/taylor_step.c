@@ -24,7 +24,8 @@ static double choose_length(pl_run* run, const pl_taylor_numbers* numbers) {
   return copysign(h, left);
 }
 
-pleuel_status pl_taylor_step_expand(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers) {
+pleuel_status pl_taylor_step_expand(pl_run* run, pl_stepper_step* s,
+                                    const pl_taylor_numbers* numbers) {
   run->dae.use = run->order;
   pl_step_program_update(run);
   numbers->expand(run);
@@ -82,7 +83,8 @@ static bool series_holds(pl_run* run, const pl_taylor_numbers* numbers, double h
 }
 
 // ----------------------------------------------------------------------------------------- the end
-pleuel_status pl_taylor_step_state_at(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers) {
+pleuel_status pl_taylor_step_state_at(pl_run* run, pl_stepper_step* s,
+                                      const pl_taylor_numbers* numbers) {
   double at = run->event->n_switches > 0 ? pl_switching_first(run, s->h) : -1;
   bool at_switch = at >= 0 && (s->root < 0 || at < s->root);
   if (at_switch) {
