@@ -14,15 +14,15 @@ static const double solved_to = 1e-11;  // of a constraint, beside 1
 static const double dependent_below = 1e-6;
 static const double off_start = 0.1;  // how far beside the start other points are looked for
 
-typedef struct pl_manifold {
+typedef struct pl_manifold_search {
   pl_analysis* d;
   int m, n;
   const int *row, *column;
   double* value;  // by symbol
   double J[max_rows * max_columns], g[max_rows];
-} pl_manifold;
+} pl_manifold_search;
 
-static void evaluate(pl_manifold* w) {
+static void evaluate(pl_manifold_search* w) {
   pl_analysis* d = w->d;
   for (int a = 0; a < w->m; a++) {
     const pl_bond* l = &d->g.at[w->row[a]];
@@ -61,7 +61,7 @@ static bool solve(double* A, double* b, int n) {
 
 // The least change of the coordinates that solves the linear equations; what depends is held by a
 // small weight.
-static bool newton_step(pl_manifold* w) {
+static bool newton_step(pl_manifold_search* w) {
   static const double weight = 1e-10;
   double N[max_rows * max_rows], y[max_rows], trace = 0;
   for (int a = 0; a < w->m; a++) {
@@ -83,7 +83,7 @@ static bool newton_step(pl_manifold* w) {
   return true;
 }
 
-static bool find_point(pl_manifold* w) {
+static bool find_point(pl_manifold_search* w) {
   for (int k = 0; k < max_newton; k++) {
     double off = 0;
     evaluate(w);
@@ -95,7 +95,7 @@ static bool find_point(pl_manifold* w) {
 }
 
 // Rows that are left when those before them are taken out, of the Jacobian with rows of length 1.
-static int independent_rows(pl_manifold* w, int* rows) {
+static int independent_rows(pl_manifold_search* w, int* rows) {
   double Q[max_rows * max_columns];
   int rank = 0;
   for (int a = 0; a < w->m; a++) {
@@ -119,7 +119,7 @@ static int independent_rows(pl_manifold* w, int* rows) {
 }
 
 // Numbers for everything: given ones, the start, others drawn.
-static void draw(pl_manifold* w, int point) {
+static void draw(pl_manifold_search* w, int point) {
   pl_analysis* d = w->d;
   int n = pl_symbol_count(d->pool) + 1;
   const double* known = pl_model_values(d->model, d->arena);
@@ -148,8 +148,8 @@ static void draw(pl_manifold* w, int point) {
 int pl_rank_on_manifold(pl_analysis* d, const int* row, int m, const int* column, int n,
                         int* independent) {
   if (m > max_rows || n > max_columns) return -1;
-  pl_manifold* w = PL_NEW(d->arena, pl_manifold);
-  *w = (pl_manifold){.d = d, .m = m, .n = n, .row = row, .column = column};
+  pl_manifold_search* w = PL_NEW(d->arena, pl_manifold_search);
+  *w = (pl_manifold_search){.d = d, .m = m, .n = n, .row = row, .column = column};
   int best = -1, found = 0, here[max_rows];
   for (int point = 0; point < n_points; point++) {
     draw(w, point);

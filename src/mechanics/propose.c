@@ -23,14 +23,14 @@ typedef struct pl_round {
   pl_expr centre[3], axis[3];
 } pl_round;
 
-typedef struct pl_trial {
+typedef struct pl_proposal_trial {
   pl_round round[most_angles];
   int n_rounds;
   // of the new angles: these lead, the others follow by a constraint; n_leaders 0: all lead
   int leader, n_leaders;
   int chosen[most_angles];  // coordinates that are there already
   int n_chosen;
-} pl_trial;
+} pl_proposal_trial;
 
 // --------------------------------------------------------------------------------- sums of squares
 // e = square q^2 + slope q + rest, the first two without q; false if it is not of this shape.
@@ -176,7 +176,7 @@ static int freedoms(const pl_analysis* d) {
 }
 
 // Sums of squares one after the other, from one constraint on, as many as there are freedoms.
-static void collect_rounds(pl_analysis* d, int first, int n_freedoms, pl_trial* out) {
+static void collect_rounds(pl_analysis* d, int first, int n_freedoms, pl_proposal_trial* out) {
   bool* taken = PL_ARRAY(d->arena, bool, d->q.n + 1);
   bool* used = PL_ARRAY(d->arena, bool, d->g.n + 1);
   int n_angles = 0;
@@ -389,7 +389,7 @@ static pl_model* copy_of(pl_analysis* d) {
   return m;
 }
 
-static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_trial* t) {
+static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_proposal_trial* t) {
   pl_model* m = copy_of(d);
   int n_circles = 0;
   for (int k = 0; k < t->n_rounds; k++) n_circles += t->round[k].n == 2;
@@ -445,7 +445,7 @@ static void keep(pl_analysis* d, pl_proposal* p, pl_analysis* a, int flaws) {
 // The equations of the copy. True when all constraints are solved without a flaw: for every place,
 // and in one way. Else the best
 // trial so far is kept.
-static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_freedoms) {
+static bool solves(pl_analysis* d, pl_proposal* p, const pl_proposal_trial* t, int n_freedoms) {
   if (++p->n_trials > most_trials) return false;
   pl_model* m = chosen_model(d, p, t);
   if (!m) return false;
@@ -478,7 +478,7 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
 // More sums of squares than freedoms: some of the angles lead, the others follow by the constraints
 // that are left.
 static bool try_followers(pl_analysis* d, pl_proposal* p, int n_freedoms) {
-  pl_trial t = {.n_rounds = 0};
+  pl_proposal_trial t = {.n_rounds = 0};
   collect_rounds(d, 0, most_angles, &t);
   int n_angles = 0;
   for (int k = 0; k < t.n_rounds; k++) n_angles += t.round[k].n - 1;
@@ -493,7 +493,7 @@ static bool try_followers(pl_analysis* d, pl_proposal* p, int n_freedoms) {
 static bool try_rounds(pl_analysis* d, pl_proposal* p, int n_freedoms) {
   int before = -1;
   for (int first = 0; first < d->g.n; first++) {
-    pl_trial t = {.n_rounds = 0};
+    pl_proposal_trial t = {.n_rounds = 0};
     collect_rounds(d, first, n_freedoms, &t);
     if (t.n_rounds == 0 || t.round[0].bond == before) continue;
     before = t.round[0].bond;
@@ -508,7 +508,7 @@ static bool try_coordinates(pl_analysis* d, pl_proposal* p, int n_freedoms, bool
   int n = by_preference(d, order, angles);
   if (n_freedoms > most_angles) return false;
   for (int first = 0; first + n_freedoms <= n; first++) {
-    pl_trial t = {.n_chosen = n_freedoms};
+    pl_proposal_trial t = {.n_chosen = n_freedoms};
     for (int k = 0; k < n_freedoms; k++) t.chosen[k] = order[first + k];
     if (solves(d, p, &t, n_freedoms)) return true;
     if (n_freedoms == 0) return false;

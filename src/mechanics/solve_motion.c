@@ -34,11 +34,11 @@ int pl_loaded_by_name(const pl_analysis* d) {
   return -1;
 }
 
-typedef struct pl_linear {
+typedef struct pl_linear_rows {
   int n_unknowns, n_rows;
   pl_symbol* unknown;  //                       (n_unknowns)
   pl_expr* row;        // expressions that vanish  (n_rows)
-} pl_linear;
+} pl_linear_rows;
 
 static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
 
@@ -90,11 +90,11 @@ static pl_expr equation_of(pl_analysis* d, int i) {
   return pl_on_maps(d, e);
 }
 
-static void add_unknown(pl_linear* s, pl_symbol u) { s->unknown[s->n_unknowns++] = u; }
+static void add_unknown(pl_linear_rows* s, pl_symbol u) { s->unknown[s->n_unknowns++] = u; }
 
-static pl_linear collect(pl_analysis* d) {
-  pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->q.n + d->g.n),
-                 .row = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n)};
+static pl_linear_rows collect(pl_analysis* d) {
+  pl_linear_rows s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->q.n + d->g.n),
+                      .row = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n)};
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
     if (c->fixed_by >= 0) continue;
@@ -116,7 +116,7 @@ static pl_linear collect(pl_analysis* d) {
 }
 
 // Splits rows linear in the unknowns into matrix and right-hand side.
-static bool split(pl_analysis* d, const pl_linear* s, pl_expr* A, pl_expr* b) {
+static bool split(pl_analysis* d, const pl_linear_rows* s, pl_expr* A, pl_expr* b) {
   pl_replace* zero = PL_ARRAY(d->arena, pl_replace, s->n_unknowns);
   for (int j = 0; j < s->n_unknowns; j++) zero[j] = (pl_replace){s->unknown[j], pl_int(d->pool, 0)};
   for (int i = 0; i < s->n_rows; i++) {
@@ -136,7 +136,7 @@ static pl_expr or_zero(pl_analysis* d, pl_expr e) {
   return pl_alg_is_zero(d->tower, e) == PL_YES ? pl_int(d->pool, 0) : e;
 }
 
-static void keep_solution(pl_analysis* d, const pl_linear* s, const pl_expr* x) {
+static void keep_solution(pl_analysis* d, const pl_linear_rows* s, const pl_expr* x) {
   for (int j = 0; j < s->n_unknowns; j++) {
     int i = pl_variable_index(d, s->unknown[j]);
     pl_expr value = d->model->lets.n > 0 ? or_zero(d, x[j]) : x[j];
@@ -240,7 +240,7 @@ pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
 }
 
 // -------------------------------------------------------------------------------------- the system
-static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
+static bool solve_system(pl_analysis* d, pl_linear_rows* s, pl_expr* x) {
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, s->n_rows * s->n_unknowns + 1);
   pl_expr* b = PL_ARRAY(d->arena, pl_expr, s->n_rows + 1);
   if (s->n_rows != s->n_unknowns || !split(d, s, A, b)) return false;
@@ -250,9 +250,9 @@ static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
 // Where the first-kind system is too large, or the map does not tell how a load of a chosen
 // coordinate reaches the masses: the equations
 // of the second kind give the accelerations; multipliers of non-trivial constraints then stay open.
-static pl_linear collect_second_kind(pl_analysis* d) {
-  pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->gen.n + 1),
-                 .row = PL_ARRAY(d->arena, pl_expr, d->gen.n + 1)};
+static pl_linear_rows collect_second_kind(pl_analysis* d) {
+  pl_linear_rows s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->gen.n + 1),
+                      .row = PL_ARRAY(d->arena, pl_expr, d->gen.n + 1)};
   for (int k = 0; k < d->gen.n; k++) {
     add_unknown(&s, d->q.at[d->gen.at[k]].a);
     s.row[s.n_rows++] = pl_second_kind(d, d->gen.at[k]);
@@ -305,7 +305,7 @@ pleuel_status pl_solve_motion(pl_analysis* d) {
   d->acceleration = PL_ARRAY(d->arena, pl_expr, d->q.n);
   pl_expr* x = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n + 1);
   bool passed_on = find_chosen_forces(d);
-  pl_linear s = collect(d);
+  pl_linear_rows s = collect(d);
   d->solved = passed_on && solve_system(d, &s, x);
   if (!d->solved && d->reduced && !slips(d)) {
     s = collect_second_kind(d);
