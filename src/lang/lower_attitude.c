@@ -10,87 +10,6 @@
 
 #include "lower_impl.h"
 
-// ----------------------------------------------------------------------------------------- reading
-// The brackets of name(...), NULL when the node is no such call.
-static const pl_ast* call_of(const pl_ast* node, const char* name, int n) {
-  if (node && node->kind == PL_AST_SUM) node = node->kids.n == 1 ? node->kids.at[0] : NULL;
-  if (node == NULL || node->kind != PL_AST_PRODUCT || node->kids.n != 2) return NULL;
-  const pl_ast *word = node->kids.at[0], *group = node->kids.at[1];
-  bool named = word->kind == PL_AST_NAME && word->number == 0 && strcmp(word->key, name) == 0;
-  return named && group->kind == PL_AST_GROUP && (n == 0 || group->kids.n == n) ? group : NULL;
-}
-
-// The form that the text shows; PL_AXES_NONE when it is none of the three.
-pl_axes_form pl_attitude_form(const pl_ast* axes) {
-  if (axes == NULL) return PL_AXES_NONE;
-  if (axes->kids.n == 3) return PL_AXES_VECTORS;
-  if (axes->kids.n != 1) return PL_AXES_NONE;
-  if (call_of(axes->kids.at[0], "euler", 3)) return PL_AXES_EULER;
-  return call_of(axes->kids.at[0], "quaternion", 4) ? PL_AXES_QUATERNION : PL_AXES_NONE;
-}
-
-int pl_attitude_count(pl_axes_form form) {
-  return form == PL_AXES_EULER        ? 3
-         : form == PL_AXES_QUATERNION ? 4
-         : form == PL_AXES_VECTORS    ? 9
-                                      : 0;
-}
-
-static void complain_form(pl_lower* l, const pl_ast* axes) {
-  const pl_ast* one = axes->kids.n == 1 ? axes->kids.at[0] : NULL;
-  bool euler = one && call_of(one, "euler", 0), quaternion = one && call_of(one, "quaternion", 0);
-  pl_diagnostic* m = pl_lower_complain(
-      l, PL_E017, pl_ast_span(axes),
-      PL_BOTH(euler        ? "euler takes three angles: precession, nutation, spin"
-              : quaternion ? "a quaternion has four components"
-                           : "the axes of a body are euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) or "
-                             "three vectors"));
-  pl_suggest(l->job, m, NULL, PL_BOTH("write  axes %s"),
-             euler        ? "euler(φ, ϑ, ψ)"
-             : quaternion ? "quaternion(q0, q1, q2, q3)"
-                          : "euler(φ, ϑ, ψ)");
-}
-
-static bool read_vectors(pl_lower* l, const pl_ast* axes, pl_expr at[9]) {
-  for (int j = 0; j < 3; j++) {
-    pl_point e;
-    if (!pl_lower_point(l, axes->kids.at[j], &e)) return false;
-    if (e.n != 3) {
-      pl_diagnostic* m = pl_lower_complain(
-          l, PL_E017, e.span,
-          PL_BOTH("an axis of a body in space has three components, this has %d"), e.n);
-      pl_suggest(l->job, m, NULL, PL_BOTH("write  (ex, ey, ez)"));
-      return false;
-    }
-    for (int i = 0; i < 3; i++) at[3 * j + i] = e.at[i];
-  }
-  return true;
-}
-
-static void find_turn(pl_pool* p, pl_attitude* a);
-
-// Reads what stands after `axes`.
-bool pl_attitude_read(pl_lower* l, const pl_ast* axes, pl_attitude* out) {
-  *out = (pl_attitude){.form = pl_attitude_form(axes)};
-  if (out->form == PL_AXES_NONE) {
-    complain_form(l, axes);
-    return false;
-  }
-  bool fine = true;
-  if (out->form == PL_AXES_VECTORS) {
-    fine = read_vectors(l, axes, out->at);
-  } else {
-    const char* word = out->form == PL_AXES_EULER ? "euler" : "quaternion";
-    const pl_ast* group = call_of(axes->kids.at[0], word, 0);
-    for (int i = 0; i < group->kids.n; i++) {
-      out->at[i] = pl_lower_scalar(l, group->kids.at[i]);
-      fine &= !pl_is_poison(out->at[i]);
-    }
-  }
-  if (fine) find_turn(l->pool, out);
-  return fine;
-}
-
 // ---------------------------------------------------------------------------------------- the turn
 static pl_expr mul3(pl_pool* p, pl_expr a, pl_expr b, pl_expr c) {
   return pl_mul(p, a, pl_mul(p, b, c));
@@ -127,7 +46,7 @@ static void turn_by_quaternion(pl_pool* p, const pl_expr q[4], pl_expr turn[9]) 
   }
 }
 
-static void find_turn(pl_pool* p, pl_attitude* a) {
+void pl_attitude_turn(pl_pool* p, pl_attitude* a) {
   if (a->form == PL_AXES_EULER) turn_by_euler(p, a->at, a->turn);
   if (a->form == PL_AXES_QUATERNION) turn_by_quaternion(p, a->at, a->turn);
   for (int i = 0; a->form == PL_AXES_VECTORS && i < 9; i++) a->turn[3 * (i % 3) + i / 3] = a->at[i];

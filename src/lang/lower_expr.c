@@ -1,4 +1,4 @@
-// Expressions: sums, factors, units, relations.  Products have rules of their own: lower_product.c.
+// Expressions: sums, names, factors, relations.  Products have rules of their own: lower_product.c.
 #include "lang/lower_impl.h"
 
 #include <stdlib.h>
@@ -6,84 +6,7 @@
 
 #include "grammar.h"
 
-pl_quantity pl_quantity_of(pl_expr e) { return (pl_quantity){.at = {e}}; }
-pl_quantity pl_quantity_bad(void) { return (pl_quantity){0}; }
-
-bool pl_quantity_is_bad(const pl_quantity* q) {
-  for (int i = 0; i < (q->n ? q->n : 1); i++) {
-    if (pl_is_poison(q->at[i])) return true;
-  }
-  return false;
-}
-
-// --------------------------------------------------------------------------------- shapes of trees
-const pl_ast* pl_ast_single(const pl_ast* node) {
-  while (node && (node->kind == PL_AST_PRODUCT || node->kind == PL_AST_SUM) && node->kids.n == 1) {
-    if (node->kind == PL_AST_SUM && node->ops.at[0] == '-') return NULL;
-    node = node->kids.at[0];
-  }
-  return node && node->kind != PL_AST_PRODUCT && node->kind != PL_AST_SUM ? node : NULL;
-}
-
-const pl_ast* pl_ast_base(const pl_ast* n) {
-  while (n
-         && (n->kind == PL_AST_POWER || n->kind == PL_AST_PRIME || n->kind == PL_AST_UNIT
-             || n->kind == PL_AST_DEGREE))
-    n = pl_ast_kid(n, 0);
-  return n;
-}
-
-bool pl_ast_is_name(const pl_ast* node, const char* key) {
-  const pl_ast* one = pl_ast_single(node);
-  return one && one->kind == PL_AST_NAME && one->number == 0 && strcmp(one->key, key) == 0;
-}
-
-// -------------------------------------------------------------------------------------- arithmetic
-static pl_quantity mixed(pl_lower* l, const pl_ast* where, const char* en, const char* de) {
-  pl_lower_complain(l, PL_E017, pl_ast_span(where), en, de);
-  return pl_quantity_bad();
-}
-
-pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
-                         const pl_ast* where) {
-  if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
-  if (a.n != b.n) {
-    return mixed(l, where, PL_BOTH("a vector and a number cannot be added"));
-  }
-  pl_quantity sum = {.n = a.n};
-  for (int i = 0; i < (a.n ? a.n : 1); i++) {
-    sum.at[i] = minus ? pl_sub(l->pool, a.at[i], b.at[i]) : pl_add(l->pool, a.at[i], b.at[i]);
-  }
-  return sum;
-}
-
-pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide,
-                           const pl_ast* where) {
-  if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
-  if (b.n && divide) return mixed(l, where, PL_BOTH("nothing can be divided by a vector"));
-  if (a.n && b.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where),
-                                         PL_BOTH("a product of two vectors"));
-    pl_suggest(l->job, m, NULL, PL_BOTH("write dot(a, b) or cross(a, b)"));
-    return pl_quantity_bad();
-  }
-  if (b.n) {
-    pl_quantity swap = a;
-    a = b;
-    b = swap;
-  }
-  pl_quantity product = {.n = a.n};
-  for (int i = 0; i < (a.n ? a.n : 1); i++) {
-    product.at[i] = divide ? pl_div(l->pool, a.at[i], b.at[0]) : pl_mul(l->pool, a.at[i], b.at[0]);
-    if (!pl_is_poison(product.at[i])) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where),
-                                         PL_BOTH("this has no value"));
-    if (divide) pl_because(l->job, m, PL_BOTH("division by zero"));
-    return pl_quantity_bad();
-  }
-  return product;
-}
-
+// -------------------------------------------------------------------------------------------- sums
 static pl_quantity lower_sum(pl_lower* l, const pl_ast* node) {
   // n-ary at once, so that a sum of thousands of terms stays linear
   bool scalar = true;
@@ -113,24 +36,290 @@ static pl_quantity lower_sum(pl_lower* l, const pl_ast* node) {
   return sum;
 }
 
-// ------------------------------------------------------------------------------------------- units
-bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out) {
-  size_t bad_at = 0, bad_n = 0;
-  const char* near = NULL;
-  size_t n = strlen(node->text);
-  if (pl_unit_parse(l->pool, node->text, n, out, &bad_at, &bad_n, &near)) return true;
-  pl_span span = pl_ast_span(node);
-  uint32_t start = span.end - 1 - (uint32_t)n;
-  span.begin = start + (uint32_t)bad_at;
-  span.end = span.begin + (uint32_t)(bad_n ? bad_n : 1);
-  const char* shown = pl_copy_n(l->arena, node->text + bad_at, bad_n);
-  pl_diagnostic* m = bad_n ? pl_lower_complain(l, PL_E022, span, PL_BOTH("%s is not a unit"), shown)
-                           : pl_lower_complain(l, PL_E022, span, PL_BOTH("a unit is missing"));
-  if (near) pl_suggest(l->job, m, near, PL_BOTH("did you mean %s?"), near);
-  else pl_suggest(l->job, m, NULL, PL_BOTH("units are written as in [m/s^2], [kN m], [rad/s]"));
-  return false;
+// ----------------------------------------------------------------------------------- abbreviations
+// Made of given quantities only?  Then it stays a name.
+static bool only_given(pl_lower* l, pl_expr e) {
+  e = pl_unit_to_si(l->pool, e);
+  int n = pl_symbols_in(l->pool, e, NULL, 0);
+  pl_symbol* s = PL_ARRAY(l->arena, pl_symbol, n + 1);
+  pl_symbols_in(l->pool, e, s, n);
+  for (int i = 0; i < n; i++) {
+    if (pl_symbol_get(l->pool, s[i])->role != PL_R_PARAM) return false;
+  }
+  return !pl_has_role(l->pool, e, PL_R_ARRAY) && !pl_has_role(l->pool, e, PL_R_COORD);
 }
 
+static void circle(pl_lower* l, pl_entity* e) {
+  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself",
+                                       "%s führt auf sich selbst zurück", e->shown);
+  pl_suggest(l->job, m, NULL, "write its right side without %s",
+             "die rechte Seite ohne %s schreiben", e->shown);
+  e->broken = true;
+}
+
+void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
+  if (e->state == 2) return;
+  if (e->state == 1) {
+    if (!e->broken) circle(l, e);
+    return;
+  }
+  enum { MAX_DEPTH = 300 };
+  if (l->call_depth > MAX_DEPTH) {
+    pl_lower_complain(l, PL_E006, e->span, "abbreviations are nested too deeply",
+                      "Abkürzungen sind zu tief verschachtelt");
+    e->broken = true;
+    e->state = 2;
+    return;
+  }
+  // its right side is read where it stands: no locals, no block
+  e->state = 1;
+  l->call_depth++;
+  pl_block* block = l->block;
+  int n_locals = l->locals.n;
+  bool results = l->results, infinity = l->infinity;
+  pl_local* locals = l->locals.at;
+  l->block = NULL;
+  l->locals.n = 0;
+  l->locals.at = NULL;
+  l->locals.cap = 0;
+  l->results = true;
+  l->infinity = false;
+  l->mute += e->broken;
+  int wrong = l->wrong;
+  pl_quantity q = pl_lower_quantity(l, e->override ? e->override : pl_ast_kid(e->definition, 2));
+  l->mute -= e->broken;
+  l->locals.at = locals;
+  l->locals.n = n_locals;
+  l->locals.cap = n_locals;
+  l->block = block;
+  l->results = results;
+  l->infinity = infinity;
+  l->call_depth--;
+  e->state = 2;
+  if (l->wrong > wrong || pl_quantity_is_bad(&q)) e->broken = true;
+  e->n = q.n;
+  memcpy(e->at, q.at, sizeof e->at);
+  e->value = q.at[0];
+  e->inserted = e->broken || q.n > 0 || !only_given(l, e->value);
+  const pl_ast* name = pl_ast_kid(e->definition, 0);
+  e->symbol = pl_scope_symbol(l, name, e->inserted ? PL_R_LOCAL : PL_R_PARAM);
+  pl_push(l->arena, l->m->lets,
+          (pl_let){.symbol = e->symbol,
+                   .inserted = e->inserted,
+                   .value = e->value,
+                   .span = pl_ast_span(e->definition)});
+  if (!e->inserted) e->value = pl_sym(l->pool, e->symbol);
+}
+
+// ------------------------------------------------------------------------------------------- names
+static pl_expr lower_index(pl_lower* l, const pl_ast* index) {
+  if (index->kind == PL_AST_RANGE) {
+    pl_lower_complain(l, PL_E025, pl_ast_span(index), "one index is needed here, not a range",
+                      "hier ist ein Index nötig, kein Bereich");
+    return pl_poison();
+  }
+  return pl_lower_scalar(l, index);
+}
+
+// An index where none belongs.  "g[m/s^2]" is a unit that lacks its blank.
+static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* place,
+                             const pl_ast* index) {
+  pl_unit unit;
+  size_t bad_at, bad_n;
+  const char* near;
+  const char* text = pl_source_text(l->arena, pl_ast_span(index));
+  const pl_ast* one = pl_ast_single(index);
+  bool is_index = !index || index->kind == PL_AST_SUM
+                  || (one
+                      && (one->kind == PL_AST_NUMBER
+                          || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
+  if (!is_index && pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
+    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place),
+                                         "a unit belongs to a number or a declaration",
+                                         "eine Einheit gehört zu einer Zahl oder Vereinbarung");
+    pl_suggest(l->job, m, name->shown, "remove [%s]", "[%s] entfernen", text);
+    return pl_quantity_bad();
+  }
+  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
+                                       "%s is not a family, so it takes no index",
+                                       "%s ist keine Familie und hat keinen Index", name->shown);
+  pl_suggest(l->job, m, NULL, "declare  coord %s[1..N]", "vereinbaren:  coord %s[1..N]",
+             name->shown);
+  return pl_quantity_bad();
+}
+
+static pl_quantity no_derivative(pl_lower* l, const pl_ast* place, const char* shown) {
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place),
+                                       "%s does not move, so it has no derivative",
+                                       "%s bewegt sich nicht und hat keine Ableitung", shown);
+  pl_suggest(l->job, m, NULL, "declare  coord %s  if it moves",
+             "coord %s  vereinbaren, falls es sich bewegt", shown);
+  return pl_quantity_bad();
+}
+
+static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
+                                  const pl_ast* index, int dots, const pl_ast* place) {
+  if (e->broken && e->kind != PL_ENTITY_COORD && e->kind != PL_ENTITY_PARAM
+      && e->kind != PL_ENTITY_FAMILY) {
+    l->wrong++;
+    return pl_quantity_bad();
+  }
+  if (e->kind == PL_ENTITY_FAMILY) {
+    if (index == NULL) {
+      pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
+                                           "%s is a family, so it needs an index",
+                                           "%s ist eine Familie und braucht einen Index", e->shown);
+      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown),
+                 "write %s[1] or, inside for, %s[i]", "schreibe %s[1] oder, in for, %s[i]",
+                 e->shown, e->shown);
+      return pl_quantity_bad();
+    }
+    pl_expr i = lower_index(l, index);
+    return pl_is_poison(i) ? pl_quantity_bad() : pl_quantity_of(pl_at(l->pool, e->symbol, dots, i));
+  }
+  if (index) return no_family(l, name, place, index);
+  switch (e->kind) {
+    case PL_ENTITY_COORD:
+      return pl_quantity_of(pl_sym(l->pool, pl_scope_dotted(l, e->symbol, dots)));
+    case PL_ENTITY_LET: {
+      pl_scope_finish_let(l, e);
+      if (e->broken) {
+        l->wrong++;
+        return pl_quantity_bad();
+      }
+      if (dots && !e->inserted) return no_derivative(l, place, e->shown);
+      pl_quantity q = {.n = e->n};
+      memcpy(q.at, e->at, sizeof q.at);
+      if (e->n == 0) q.at[0] = e->value;
+      for (; dots > 0; dots--) {
+        for (int k = 0; k < (q.n ? q.n : 1); k++) q.at[k] = pl_dt(l->pool, q.at[k]);
+      }
+      return q;
+    }
+    case PL_ENTITY_FUNCTION: {
+      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place), "%s needs an argument",
+                                           "%s braucht ein Argument", e->shown);
+      pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", e->shown);
+      return pl_quantity_bad();
+    }
+    default:
+      if (dots) return no_derivative(l, place, e->shown);
+      return pl_quantity_of(pl_sym(l->pool, e->symbol));
+  }
+}
+
+static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_ast* index, int dots,
+                                      const pl_ast* place) {
+  if (dots) {
+    pl_lower_complain(l, PL_E017, pl_ast_span(place), "multipliers have no derivative here",
+                      "Multiplikatoren haben hier keine Ableitung");
+    return pl_quantity_bad();
+  }
+  if (r->family && index == NULL) {
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E025, pl_ast_span(place),
+        "%s is a family of constraints, so its multiplier needs an index",
+        "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index",
+        r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), "write λ_%s[1]",
+               "schreibe λ_%s[1]", r->shown);
+    return pl_quantity_bad();
+  }
+  if (!r->family && index) {
+    pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index",
+                      "%s ist keine Familie und hat keinen Index", r->shown);
+    return pl_quantity_bad();
+  }
+  if (index == NULL) return pl_quantity_of(pl_sym(l->pool, r->lambda));
+  pl_expr i = lower_index(l, index);
+  return pl_is_poison(i) ? pl_quantity_bad() : pl_quantity_of(pl_at(l->pool, r->lambda, 0, i));
+}
+
+static pl_quantity name_of_momentum(pl_lower* l, const pl_ast* name, const pl_entity* coordinate) {
+  pl_symbol_info info = {.name = pl_format(l->arena, "p_%s", coordinate->shown),
+                         .ascii = name->key,
+                         .role = PL_R_MOMENTUM,
+                         .class = PL_C_OTHER,
+                         .dimension = pl_dimension_one(),
+                         .base = coordinate->symbol};
+  return pl_quantity_of(pl_sym(l->pool, pl_symbol_make(l->pool, &info)));
+}
+
+static pl_quantity several_multipliers(pl_lower* l, const pl_ast* name) {
+  pl_text all = pl_text_make(l->arena);
+  for (int i = 0; i < l->rules.n && i < 6; i++)
+    pl_text_addf(&all, "%sλ_%s", i ? ", " : "", l->rules.at[i].shown);
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E011, pl_ast_span(name),
+      l->rules.n ? "there are several multipliers" : "λ is not declared: there is no constraint",
+      l->rules.n ? "es gibt mehrere Multiplikatoren"
+                 : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
+  if (l->rules.n)
+    pl_suggest(l->job, m, NULL, "write %1$s, or name one in its constraint: with λ",
+               "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ",
+               pl_text_string(&all));
+  return pl_quantity_bad();
+}
+
+pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots,
+                          const pl_ast* place) {
+  dots += name->number;
+  if (dots > 2) {
+    pl_lower_complain(l, PL_E017, pl_ast_span(place),
+                      "only first and second derivatives can be written",
+                      "nur erste und zweite Ableitungen lassen sich schreiben");
+    return pl_quantity_bad();
+  }
+  const pl_local* local = pl_scope_local(l, name->key);
+  if (local) {
+    if (index) return no_family(l, name, place, index);
+    pl_quantity q = {.n = local->n};
+    memcpy(q.at, local->at, sizeof q.at);
+    if (local->n == 0) q.at[0] = local->symbol.id ? pl_sym(l->pool, local->symbol) : local->value;
+    for (int d = 0; d < dots; d++) {
+      for (int k = 0; k < (q.n ? q.n : 1); k++) q.at[k] = pl_dt(l->pool, q.at[k]);
+    }
+    return q;
+  }
+  pl_entity* e = pl_scope_find(l, name->key);
+  if (e) return name_of_entity(l, e, name, index, dots, place);
+  int more;
+  bool start;
+  if (pl_scope_alias(l, name, &e, &more, &start)) {
+    if (!start) return name_of_entity(l, e, name, index, dots + more, place);
+    if (e->kind == PL_ENTITY_COORD && dots == 0 && more <= 1) {
+      return pl_quantity_of(
+          pl_sym(l->pool, pl_symbol_start(l->pool, pl_scope_dotted(l, e->symbol, more))));
+    }
+  }
+  if (strcmp(name->key, "t") == 0 && !index)
+    return dots ? no_derivative(l, place, "t") : pl_quantity_of(pl_sym(l->pool, pl_time(l->pool)));
+  pl_rule* rule = pl_scope_multiplier(l, name->key);
+  if (rule) return name_of_multiplier(l, rule, index, dots, place);
+  pl_result_kind kind;
+  pl_expr output = l->results && !index ? pl_scope_output(l, name->key) : pl_poison();
+  for (int d = 0; d < dots && !pl_is_poison(output); d++) output = pl_dt(l->pool, output);
+  if (!pl_is_poison(output)) return pl_quantity_of(output);
+  if (l->results && !index && dots == 0 && pl_scope_result(name->key, &kind)) {
+    return pl_quantity_of(pl_sym(l->pool, pl_model_result_symbol(l->m, kind, NULL)));
+  }
+  if (!index && dots == 0 && pl_scope_momentum(l, name->key, &e))
+    return name_of_momentum(l, name, e);
+  if (strcmp(name->key, "lambda") == 0 && !pl_scope_lost(l, name->key))
+    return several_multipliers(l, name);
+  if (l->infinity && (strcmp(name->key, "inf") == 0 || strcmp(name->key, "infinity") == 0))
+    return pl_quantity_of(pl_infinity(l->pool));
+  if (!l->results && pl_scope_result(name->key, &kind) && !pl_scope_lost(l, name->key)) {
+    pl_diagnostic* m = pl_scope_unknown(l, name);
+    pl_because(l->job, m, "as a result it can stand in ask, plot and event only",
+               "als Ergebnis kann es nur in ask, plot und event stehen");
+    return pl_quantity_bad();
+  }
+  pl_scope_unknown(l, name);
+  return pl_quantity_bad();
+}
+
+// ------------------------------------------------------------------------------------------- units
 static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity q) {
   pl_unit unit;
   if (!pl_lower_unit(l, node, &unit) || pl_quantity_is_bad(&q)) return pl_quantity_bad();

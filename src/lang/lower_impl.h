@@ -134,8 +134,13 @@ pl_entity* pl_scope_find(const pl_lower* l, const char* key);
 pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name, pl_symbol symbol);
 void pl_scope_add(pl_lower* l, pl_entity* e);
 const pl_local* pl_scope_local(const pl_lower* l, const char* key);
-bool pl_scope_is_multiplier(pl_lower* l, const char* key);  // λ, λ_label
-bool pl_scope_is_result(const char* key);                   // T, V, L, E, H and their words
+pl_rule* pl_scope_multiplier(pl_lower* l, const char* key);  // λ, λ_label; NULL
+bool pl_scope_is_result(const char* key);                    // T, V, L, E, H and their words
+bool pl_scope_result(const char* key, pl_result_kind* kind);
+// x_dot, x_0: a coordinate under another name, its derivative, its start
+bool pl_scope_alias(pl_lower* l, const pl_ast* name, pl_entity** e, int* dots, bool* start);
+pl_expr pl_scope_output(const pl_lower* l, const char* key);  // of `output F = ...`, or poison
+bool pl_scope_momentum(pl_lower* l, const char* key, pl_entity** coordinate);  // p_x
 // would pl_lower_name find something?
 bool pl_scope_known(pl_lower* l, const pl_ast* name);
 pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name);  // E011 with the nearest name
@@ -187,8 +192,7 @@ bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out);
 
 // ---- lower_attitude.c: the attitude of bodies in space
 pl_axes_form pl_attitude_form(const pl_ast* axes);  // as far as the text shows
-int pl_attitude_count(pl_axes_form form);           // of numbers that give it
-bool pl_attitude_read(pl_lower* l, const pl_ast* axes, pl_attitude* out);
+void pl_attitude_turn(pl_pool* p, pl_attitude* a);  // from what was given
 void pl_attitude_spin(pl_pool* p, const pl_attitude* a, pl_expr w[3]);
 pl_expr pl_attitude_energy(pl_pool* p, const pl_attitude* a, const pl_expr J[6]);
 bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* left, pl_expr* right,

@@ -197,7 +197,7 @@ static bool has_moments(product* p, const pl_ast* f) {
   if (base->kind != PL_AST_NAME || pl_scope_local(p->l, base->key)) return false;
   pl_entity* e = pl_scope_find(p->l, base->key);
   if (e) return e->kind == PL_ENTITY_COORD || e->kind == PL_ENTITY_FAMILY;
-  if (p->l->results && pl_scope_is_multiplier(p->l, base->key)) return true;
+  if (p->l->results && pl_scope_multiplier(p->l, base->key)) return true;
   return p->l->results && pl_scope_is_result(base->key);
 }
 

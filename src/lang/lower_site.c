@@ -1,103 +1,9 @@
-// Places: axes, points, and the labels of masses, bodies and points.
+// Places: points, attitudes, and the labels of masses, bodies and points.
 #include "lang/lower_impl.h"
 
 #include <string.h>
 
 #include "grammar.h"
-
-// -------------------------------------------------------------------------------------------- axes
-int pl_axis_find(const pl_lower* l, const char* key) {
-  for (int i = 0; i < l->m->n_axes; i++) {
-    if (strcmp(l->m->axes[i].ascii, key) == 0) return i;
-  }
-  return -1;
-}
-
-// How many components a point has, as far as the text shows.
-int pl_ast_components(const pl_ast* point) {
-  const pl_ast* one = pl_ast_single(point);
-  if (one && one->kind == PL_AST_GROUP) return one->kids.n;
-  if (point->kind == PL_AST_PRODUCT && point->kids.n == 2
-      && point->kids.at[0]->kind == PL_AST_NAME) {
-    return strcmp(point->kids.at[0]->key, "spherical") == 0 ? 3
-           : strcmp(point->kids.at[0]->key, "polar") == 0   ? 2
-                                                            : 0;
-  }
-  return 0;
-}
-
-static int most_components(const pl_ast* node) {
-  int most = 0;
-  for (int i = 0; i < node->kids.n; i++) {
-    const pl_ast* s = node->kids.at[i];
-    if (s == NULL || s->kind != PL_AST_STATEMENT) continue;
-    int n = 0;
-    if (s->token == TOK_FOR) n = most_components(pl_ast_kid(s, 2));
-    if (s->token == TOK_MASS) n = pl_ast_components(pl_ast_kid(s, 2));
-    if (s->token == TOK_POINT) n = pl_ast_components(pl_ast_kid(s, 1));
-    if (s->token == TOK_BODY) n = pl_ast_components(pl_ast_kid(s, 3));
-    if (n > most) most = n;
-  }
-  return most;
-}
-
-// A point is (x, y, z) in whatever order `axes` names them: "axes x right, z up, y out" says where
-// they point. Axes of other names are in the order of the line.
-static void axes_in_order(pl_model* m) {
-  for (int i = 0; i < m->n_axes; i++) {
-    if (strlen(m->axes[i].ascii) != 1 || !strchr("xyz", m->axes[i].ascii[0])) return;
-  }
-  for (int i = 1; i < m->n_axes; i++) {
-    for (int k = i; k > 0 && m->axes[k].ascii[0] < m->axes[k - 1].ascii[0]; k--) {
-      pl_axis other = m->axes[k];
-      m->axes[k] = m->axes[k - 1];
-      m->axes[k - 1] = other;
-    }
-  }
-}
-
-// Points of three components under two axes x, y, z: the one that is left is there too.
-static void third_axis(pl_lower* l, const pl_ast* file) {
-  static const char* const names[] = {"x", "y", "z"};
-  static const char* const ways[] = {"out", "up", "right"};
-  if (l->m->n_axes != 2 || most_components(file) != 3) return;
-  pl_axis third = {.direction = NULL};
-  for (int i = 0; i < 3; i++) {
-    if (pl_axis_find(l, names[i]) < 0)
-      third.name = third.ascii = third.name ? third.name : names[i];
-    bool free_way = true;
-    for (int k = 0; k < 2; k++)
-      free_way &= !l->m->axes[k].direction || strcmp(l->m->axes[k].direction, ways[i]) != 0;
-    if (free_way && !third.direction) third.direction = ways[i];
-  }
-  for (int k = 0; k < 2; k++)
-    if (strlen(l->m->axes[k].ascii) != 1 || !strchr("xyz", l->m->axes[k].ascii[0])) return;
-  l->m->axes[l->m->n_axes++] = third;
-  axes_in_order(l->m);
-}
-
-// Of a text with broken lines three axes were taken; its whole lines may need fewer.
-void pl_axes_trim(pl_lower* l, const pl_ast* file) {
-  if (l->lost.n == 0 || l->m->n_axes != 3 || l->m->axes[0].declared) return;
-  int n = most_components(file);
-  for (int i = 0; i < l->m->gravities.n; i++) {
-    if (l->m->gravities.at[i].axis >= n) n = l->m->gravities.at[i].axis + 1;
-  }
-  if (n > 0 && n < 3) l->m->n_axes = n;
-}
-
-// Without `axes`: as many as the points have components, x right, y up, z out.
-void pl_axes_settle(pl_lower* l, const pl_ast* file) {
-  static const pl_axis usual[3] = {
-      {"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
-  axes_in_order(l->m);
-  third_axis(l, file);
-  if (l->m->n_axes) return;
-  // where a broken line may have told, no axis is missed
-  int n = l->lost.n ? 3 : most_components(file);
-  l->m->n_axes = n > 3 ? 3 : n;
-  for (int i = 0; i < l->m->n_axes; i++) l->m->axes[i] = usual[i];
-}
 
 // ------------------------------------------------------------------------------------------ labels
 // The name in an expression that is nothing but a label, such as A or P[i-1]; NULL otherwise.
@@ -220,6 +126,83 @@ bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
   return true;
 }
 
+// -------------------------------------------------------------------------- attitudes of bodies
+// The brackets of name(...), NULL when the node is no such call.
+static const pl_ast* call_of(const pl_ast* node, const char* name, int n) {
+  if (node && node->kind == PL_AST_SUM) node = node->kids.n == 1 ? node->kids.at[0] : NULL;
+  if (node == NULL || node->kind != PL_AST_PRODUCT || node->kids.n != 2) return NULL;
+  const pl_ast *word = node->kids.at[0], *group = node->kids.at[1];
+  bool named = word->kind == PL_AST_NAME && word->number == 0 && strcmp(word->key, name) == 0;
+  return named && group->kind == PL_AST_GROUP && (n == 0 || group->kids.n == n) ? group : NULL;
+}
+
+// The form that the text shows; PL_AXES_NONE when it is none of the three.
+pl_axes_form pl_attitude_form(const pl_ast* axes) {
+  if (axes == NULL) return PL_AXES_NONE;
+  if (axes->kids.n == 3) return PL_AXES_VECTORS;
+  if (axes->kids.n != 1) return PL_AXES_NONE;
+  if (call_of(axes->kids.at[0], "euler", 3)) return PL_AXES_EULER;
+  return call_of(axes->kids.at[0], "quaternion", 4) ? PL_AXES_QUATERNION : PL_AXES_NONE;
+}
+
+static void complain_form(pl_lower* l, const pl_ast* axes) {
+  const pl_ast* one = axes->kids.n == 1 ? axes->kids.at[0] : NULL;
+  bool euler = one && call_of(one, "euler", 0), quaternion = one && call_of(one, "quaternion", 0);
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E017, pl_ast_span(axes),
+      euler ? "euler takes three angles: precession, nutation, spin"
+      : quaternion
+          ? "a quaternion has four components"
+          : "the axes of a body are euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) or three vectors",
+      euler        ? "euler verlangt drei Winkel: Präzession, Nutation, Eigendrehung"
+      : quaternion ? "eine Quaternion hat vier Komponenten"
+                   : "die Achsen eines Körpers sind euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) "
+                     "oder drei Vektoren");
+  pl_suggest(l->job, m, NULL, "write  axes %s", "schreibe  axes %s",
+             euler        ? "euler(φ, ϑ, ψ)"
+             : quaternion ? "quaternion(q0, q1, q2, q3)"
+                          : "euler(φ, ϑ, ψ)");
+}
+
+static bool read_vectors(pl_lower* l, const pl_ast* axes, pl_expr at[9]) {
+  for (int j = 0; j < 3; j++) {
+    pl_point e;
+    if (!pl_lower_point(l, axes->kids.at[j], &e)) return false;
+    if (e.n != 3) {
+      pl_diagnostic* m = pl_lower_complain(
+          l, PL_E017, e.span, "an axis of a body in space has three components, this has %d",
+          "eine Achse eines Körpers im Raum hat drei Komponenten, diese hat %d", e.n);
+      pl_suggest(l->job, m, NULL, "write  (ex, ey, ez)", "schreibe  (ex, ey, ez)");
+      return false;
+    }
+    for (int i = 0; i < 3; i++) at[3 * j + i] = e.at[i];
+  }
+  return true;
+}
+
+// Reads what stands after `axes`.
+static bool read_attitude(pl_lower* l, const pl_ast* axes, pl_attitude* out) {
+  *out = (pl_attitude){.form = pl_attitude_form(axes)};
+  if (out->form == PL_AXES_NONE) {
+    complain_form(l, axes);
+    return false;
+  }
+  bool fine = true;
+  if (out->form == PL_AXES_VECTORS) {
+    fine = read_vectors(l, axes, out->at);
+  } else {
+    const char* word = out->form == PL_AXES_EULER ? "euler" : "quaternion";
+    const pl_ast* group = call_of(axes->kids.at[0], word, 0);
+    for (int i = 0; i < group->kids.n; i++) {
+      out->at[i] = pl_lower_scalar(l, group->kids.at[i]);
+      fine &= !pl_is_poison(out->at[i]);
+    }
+  }
+  if (fine) pl_attitude_turn(l->pool, out);
+  return fine;
+}
+
+// ------------------------------------------------------------------------------------------ places
 // A point fixed in a body in space: centre + turn (a, b, c).
 static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body,
                                    const pl_point* centre, const pl_point* local) {
@@ -280,7 +263,7 @@ static bool lower_place(pl_lower* l, pl_site* p) {
     const pl_ast* angle = pl_ast_kid(s, 4);
     p->angle = angle ? pl_lower_scalar(l, angle) : pl_poison();
     p->in_space = pl_ast_kid(s, 5) != NULL;
-    if (p->in_space) fine &= pl_attitude_read(l, pl_ast_kid(s, 5), &p->attitude);
+    if (p->in_space) fine &= read_attitude(l, pl_ast_kid(s, 5), &p->attitude);
     return fine && (angle == NULL || !pl_is_poison(p->angle));
   }
   const pl_ast* on = pl_ast_kid(s, 2);
