@@ -180,13 +180,10 @@ void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bo
   const pl_certificate_of_run* c = m->certified;
   if (!c) return;
   teller t = {out, m, c, m->work, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
-  static const char* const not_at_all[2] = {"     not certified: %s\n",
-                                            "     nicht zertifiziert: %s\n"};
-  static const char* const until[2] = {
-      "     the motion exists until t = %s, beyond it nothing is certified: %s\n",
-      "     die Bewegung existiert bis t = %s, danach ist nichts zertifiziert: %s\n"};
-  static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n",
-                                      "     die Einschließung ist weiter als verlangt: %s\n"};
+  static const char* const not_at_all = PL_KEY("     not certified: %s\n");
+  static const char* const until =
+      PL_KEY("     the motion exists until t = %s, beyond it nothing is certified: %s\n");
+  static const char* const wide = PL_KEY("     the enclosure is wider than asked for: %s\n");
   int done = c->refusal == PL_CERTIFY_TRIED ? c->proof.n_done : 0;
   // all times are in the JSON document
   if (c->refusal == PL_CERTIFY_TRIED && (done > 0 || c->proof.n_happened > 0)) {

@@ -50,10 +50,9 @@ static bool only_given(pl_lower* l, pl_expr e) {
 }
 
 static void circle(pl_lower* l, pl_entity* e) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself",
-                                       "%s führt auf sich selbst zurück", e->shown);
-  pl_suggest(l->job, m, NULL, "write its right side without %s",
-             "die rechte Seite ohne %s schreiben", e->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, PL_BOTH("%s leads back to itself"),
+                                       e->shown);
+  pl_suggest(l->job, m, NULL, PL_BOTH("write its right side without %s"), e->shown);
   e->broken = true;
 }
 
@@ -65,8 +64,7 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
   }
   enum { MAX_DEPTH = 300 };
   if (l->call_depth > MAX_DEPTH) {
-    pl_lower_complain(l, PL_E006, e->span, "abbreviations are nested too deeply",
-                      "Abkürzungen sind zu tief verschachtelt");
+    pl_lower_complain(l, PL_E006, e->span, PL_BOTH("abbreviations are nested too deeply"));
     e->broken = true;
     e->state = 2;
     return;
@@ -114,8 +112,8 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
 // ------------------------------------------------------------------------------------------- names
 static pl_expr lower_index(pl_lower* l, const pl_ast* index) {
   if (index->kind == PL_AST_RANGE) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(index), "one index is needed here, not a range",
-                      "hier ist ein Index nötig, kein Bereich");
+    pl_lower_complain(l, PL_E025, pl_ast_span(index),
+                      PL_BOTH("one index is needed here, not a range"));
     return pl_poison();
   }
   return pl_lower_scalar(l, index);
@@ -135,25 +133,21 @@ static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* plac
                           || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
   if (!is_index && pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place),
-                                         "a unit belongs to a number or a declaration",
-                                         "eine Einheit gehört zu einer Zahl oder Vereinbarung");
-    pl_suggest(l->job, m, name->shown, "remove [%s]", "[%s] entfernen", text);
+                                         PL_BOTH("a unit belongs to a number or a declaration"));
+    pl_suggest(l->job, m, name->shown, PL_BOTH("remove [%s]"), text);
     return pl_quantity_bad();
   }
   pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
-                                       "%s is not a family, so it takes no index",
-                                       "%s ist keine Familie und hat keinen Index", name->shown);
-  pl_suggest(l->job, m, NULL, "declare  coord %s[1..N]", "vereinbaren:  coord %s[1..N]",
-             name->shown);
+                                       PL_BOTH("%s is not a family, so it takes no index"),
+                                       name->shown);
+  pl_suggest(l->job, m, NULL, PL_BOTH("declare  coord %s[1..N]"), name->shown);
   return pl_quantity_bad();
 }
 
 static pl_quantity no_derivative(pl_lower* l, const pl_ast* place, const char* shown) {
   pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place),
-                                       "%s does not move, so it has no derivative",
-                                       "%s bewegt sich nicht und hat keine Ableitung", shown);
-  pl_suggest(l->job, m, NULL, "declare  coord %s  if it moves",
-             "coord %s  vereinbaren, falls es sich bewegt", shown);
+                                       PL_BOTH("%s does not move, so it has no derivative"), shown);
+  pl_suggest(l->job, m, NULL, PL_BOTH("declare  coord %s  if it moves"), shown);
   return pl_quantity_bad();
 }
 
@@ -167,11 +161,10 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
   if (e->kind == PL_ENTITY_FAMILY) {
     if (index == NULL) {
       pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
-                                           "%s is a family, so it needs an index",
-                                           "%s ist eine Familie und braucht einen Index", e->shown);
+                                           PL_BOTH("%s is a family, so it needs an index"),
+                                           e->shown);
       pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown),
-                 "write %s[1] or, inside for, %s[i]", "schreibe %s[1] oder, in for, %s[i]",
-                 e->shown, e->shown);
+                 PL_BOTH("write %s[1] or, inside for, %s[i]"), e->shown, e->shown);
       return pl_quantity_bad();
     }
     pl_expr i = lower_index(l, index);
@@ -197,9 +190,9 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
       return q;
     }
     case PL_ENTITY_FUNCTION: {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place), "%s needs an argument",
-                                           "%s braucht ein Argument", e->shown);
-      pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", e->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place),
+                                           PL_BOTH("%s needs an argument"), e->shown);
+      pl_suggest(l->job, m, NULL, PL_BOTH("write %s(...)"), e->shown);
       return pl_quantity_bad();
     }
     default:
@@ -211,23 +204,21 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
 static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_ast* index, int dots,
                                       const pl_ast* place) {
   if (dots) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(place), "multipliers have no derivative here",
-                      "Multiplikatoren haben hier keine Ableitung");
+    pl_lower_complain(l, PL_E017, pl_ast_span(place),
+                      PL_BOTH("multipliers have no derivative here"));
     return pl_quantity_bad();
   }
   if (r->family && index == NULL) {
     pl_diagnostic* m = pl_lower_complain(
         l, PL_E025, pl_ast_span(place),
-        "%s is a family of constraints, so its multiplier needs an index",
-        "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index",
-        r->shown);
-    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), "write λ_%s[1]",
-               "schreibe λ_%s[1]", r->shown);
+        PL_BOTH("%s is a family of constraints, so its multiplier needs an index"), r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), PL_BOTH("write λ_%s[1]"),
+               r->shown);
     return pl_quantity_bad();
   }
   if (!r->family && index) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index",
-                      "%s ist keine Familie und hat keinen Index", r->shown);
+    pl_lower_complain(l, PL_E025, pl_ast_span(place),
+                      PL_BOTH("%s is not a family, so it takes no index"), r->shown);
     return pl_quantity_bad();
   }
   if (index == NULL) return pl_quantity_of(pl_sym(l->pool, r->lambda));
@@ -251,12 +242,10 @@ static pl_quantity several_multipliers(pl_lower* l, const pl_ast* name) {
     pl_text_addf(&all, "%sλ_%s", i ? ", " : "", l->rules.at[i].shown);
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E011, pl_ast_span(name),
-      l->rules.n ? "there are several multipliers" : "λ is not declared: there is no constraint",
-      l->rules.n ? "es gibt mehrere Multiplikatoren"
-                 : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
+      PL_BOTH(l->rules.n ? "there are several multipliers"
+                         : "λ is not declared: there is no constraint"));
   if (l->rules.n)
-    pl_suggest(l->job, m, NULL, "write %1$s, or name one in its constraint: with λ",
-               "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ",
+    pl_suggest(l->job, m, NULL, PL_BOTH("write %1$s, or name one in its constraint: with λ"),
                pl_text_string(&all));
   return pl_quantity_bad();
 }
@@ -266,8 +255,7 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   dots += name->number;
   if (dots > 2) {
     pl_lower_complain(l, PL_E017, pl_ast_span(place),
-                      "only first and second derivatives can be written",
-                      "nur erste und zweite Ableitungen lassen sich schreiben");
+                      PL_BOTH("only first and second derivatives can be written"));
     return pl_quantity_bad();
   }
   const pl_local* local = pl_scope_local(l, name->key);
@@ -311,8 +299,7 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
     return pl_quantity_of(pl_infinity(l->pool));
   if (!l->results && pl_scope_result(name->key, &kind) && !pl_scope_lost(l, name->key)) {
     pl_diagnostic* m = pl_scope_unknown(l, name);
-    pl_because(l->job, m, "as a result it can stand in ask, plot and event only",
-               "als Ergebnis kann es nur in ask, plot und event stehen");
+    pl_because(l->job, m, PL_BOTH("as a result it can stand in ask, plot and event only"));
     return pl_quantity_bad();
   }
   pl_scope_unknown(l, name);

@@ -46,8 +46,7 @@ pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
                          const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
   if (a.n != b.n) {
-    return mixed(l, where, "a vector and a number cannot be added",
-                 "ein Vektor und eine Zahl lassen sich nicht addieren");
+    return mixed(l, where, PL_BOTH("a vector and a number cannot be added"));
   }
   pl_quantity sum = {.n = a.n};
   for (int i = 0; i < (a.n ? a.n : 1); i++) {
@@ -59,14 +58,11 @@ pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
 pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide,
                            const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
-  if (b.n && divide)
-    return mixed(l, where, "nothing can be divided by a vector",
-                 "durch einen Vektor lässt sich nicht teilen");
+  if (b.n && divide) return mixed(l, where, PL_BOTH("nothing can be divided by a vector"));
   if (a.n && b.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "a product of two vectors",
-                                         "ein Produkt zweier Vektoren");
-    pl_suggest(l->job, m, NULL, "write dot(a, b) or cross(a, b)",
-               "schreibe dot(a, b) oder cross(a, b)");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where),
+                                         PL_BOTH("a product of two vectors"));
+    pl_suggest(l->job, m, NULL, PL_BOTH("write dot(a, b) or cross(a, b)"));
     return pl_quantity_bad();
   }
   if (b.n) {
@@ -78,9 +74,9 @@ pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divid
   for (int i = 0; i < (a.n ? a.n : 1); i++) {
     product.at[i] = divide ? pl_div(l->pool, a.at[i], b.at[0]) : pl_mul(l->pool, a.at[i], b.at[0]);
     if (!pl_is_poison(product.at[i])) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value",
-                                         "das hat keinen Wert");
-    if (divide) pl_because(l->job, m, "division by zero", "Division durch null");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where),
+                                         PL_BOTH("this has no value"));
+    if (divide) pl_because(l->job, m, PL_BOTH("division by zero"));
     return pl_quantity_bad();
   }
   return product;
@@ -97,12 +93,9 @@ bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out) {
   span.begin = start + (uint32_t)bad_at;
   span.end = span.begin + (uint32_t)(bad_n ? bad_n : 1);
   const char* shown = pl_copy_n(l->arena, node->text + bad_at, bad_n);
-  pl_diagnostic* m =
-      bad_n ? pl_lower_complain(l, PL_E022, span, "%s is not a unit", "%s ist keine Einheit", shown)
-            : pl_lower_complain(l, PL_E022, span, "a unit is missing", "hier fehlt eine Einheit");
-  if (near) pl_suggest(l->job, m, near, "did you mean %s?", "war %s gemeint?", near);
-  else
-    pl_suggest(l->job, m, NULL, "units are written as in [m/s^2], [kN m], [rad/s]",
-               "Einheiten schreibt man wie [m/s^2], [kN m], [rad/s]");
+  pl_diagnostic* m = bad_n ? pl_lower_complain(l, PL_E022, span, PL_BOTH("%s is not a unit"), shown)
+                           : pl_lower_complain(l, PL_E022, span, PL_BOTH("a unit is missing"));
+  if (near) pl_suggest(l->job, m, near, PL_BOTH("did you mean %s?"), near);
+  else pl_suggest(l->job, m, NULL, PL_BOTH("units are written as in [m/s^2], [kN m], [rad/s]"));
   return false;
 }

@@ -150,15 +150,11 @@ static void complain_form(pl_lower* l, const pl_ast* axes) {
   bool euler = one && call_of(one, "euler", 0), quaternion = one && call_of(one, "quaternion", 0);
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E017, pl_ast_span(axes),
-      euler ? "euler takes three angles: precession, nutation, spin"
-      : quaternion
-          ? "a quaternion has four components"
-          : "the axes of a body are euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) or three vectors",
-      euler        ? "euler verlangt drei Winkel: Präzession, Nutation, Eigendrehung"
-      : quaternion ? "eine Quaternion hat vier Komponenten"
-                   : "die Achsen eines Körpers sind euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) "
-                     "oder drei Vektoren");
-  pl_suggest(l->job, m, NULL, "write  axes %s", "schreibe  axes %s",
+      PL_BOTH(euler        ? "euler takes three angles: precession, nutation, spin"
+              : quaternion ? "a quaternion has four components"
+                           : "the axes of a body are euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) or "
+                             "three vectors"));
+  pl_suggest(l->job, m, NULL, PL_BOTH("write  axes %s"),
              euler        ? "euler(φ, ϑ, ψ)"
              : quaternion ? "quaternion(q0, q1, q2, q3)"
                           : "euler(φ, ϑ, ψ)");
@@ -170,9 +166,9 @@ static bool read_vectors(pl_lower* l, const pl_ast* axes, pl_expr at[9]) {
     if (!pl_lower_point(l, axes->kids.at[j], &e)) return false;
     if (e.n != 3) {
       pl_diagnostic* m = pl_lower_complain(
-          l, PL_E017, e.span, "an axis of a body in space has three components, this has %d",
-          "eine Achse eines Körpers im Raum hat drei Komponenten, diese hat %d", e.n);
-      pl_suggest(l->job, m, NULL, "write  (ex, ey, ez)", "schreibe  (ex, ey, ez)");
+          l, PL_E017, e.span,
+          PL_BOTH("an axis of a body in space has three components, this has %d"), e.n);
+      pl_suggest(l->job, m, NULL, PL_BOTH("write  (ex, ey, ez)"));
       return false;
     }
     for (int i = 0; i < 3; i++) at[3 * j + i] = e.at[i];

@@ -48,18 +48,17 @@ static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
   const char* text = pl_is_poison(e) ? "?" : expr_words(c, e);
   pl_diagnostic* d;
   if (unknown) {
-    d = pl_tell(c->job, PL_E038, span,
-                PL_F(c->job, "%s has no number, so the size of the family is not known", unknown),
-                PL_F(c->job, "%s hat keinen Zahlenwert, also ist die Größe der Familie unbekannt",
-                     unknown));
+    d = pl_tell(
+        c->job, PL_E038, span,
+        PL_BOTH_FORMAT(c->job->arena, "%s has no number, so the size of the family is not known",
+                       unknown));
     const char* write = PL_F(c->job, "param %s = 10", unknown);
     pl_report_fix(d, write, write, NULL);
     return;
   }
-  d = pl_tell(c->job, PL_E038, span, PL_F(c->job, "the bound %s is no whole number", text),
-              PL_F(c->job, "die Grenze %s ist keine ganze Zahl", text));
-  pl_report_fix(d, "bounds of a family are whole numbers",
-                "Grenzen einer Familie sind ganze Zahlen", NULL);
+  d = pl_tell(c->job, PL_E038, span,
+              PL_BOTH_FORMAT(c->job->arena, "the bound %s is no whole number", text));
+  pl_report_fix(d, PL_BOTH("bounds of a family are whole numbers"), NULL);
 }
 
 // Coordinates and loops of one size are one mistake.
@@ -68,16 +67,15 @@ static void tell_too_many(range_check* c, pl_span span) {
   if (c->too_many) return;
   c->too_many = true;
   pl_diagnostic* d = pl_tell(
-      job, PL_E026, span, PL_F(job, "this family has more than %d members", (int)PL_MAX_INSTANCES),
-      PL_F(job, "diese Familie hat mehr als %d Mitglieder", (int)PL_MAX_INSTANCES));
-  pl_report_fix(d, "make the bounds smaller", "die Grenzen verkleinern", NULL);
+      job, PL_E026, span,
+      PL_BOTH_FORMAT(job->arena, "this family has more than %d members", (int)PL_MAX_INSTANCES));
+  pl_report_fix(d, PL_BOTH("make the bounds smaller"), NULL);
 }
 
 static void tell_walk(range_check* c, pl_walk_result r, const pl_block* b) {
   if (r == PL_WALK_TOO_MANY) tell_too_many(c, b->span);
   if (r == PL_WALK_ZERO_STEP) {
-    pl_diagnostic* d = pl_tell(c->job, PL_E038, b->span, "a step of 0 never ends",
-                               "eine Schrittweite von 0 endet nie");
+    pl_diagnostic* d = pl_tell(c->job, PL_E038, b->span, PL_BOTH("a step of 0 never ends"));
     pl_report_fix(d, "step 1", "step 1", NULL);
   }
   if (r != PL_WALK_BAD_BOUND) return;
@@ -132,24 +130,23 @@ static void tell_out_of_range(range_check* c) {
   pl_diagnostic* d;
   if (c->no_integer) {
     const char* text = expr_words(c, index);
-    d = pl_tell(
-        c->job, PL_E038, at,
-        PL_F(c->job, "the index %s is no whole number%s", text, instance_text(c, " at ")),
-        PL_F(c->job, "der Index %s ist keine ganze Zahl%s", text, instance_text(c, " bei ")));
+    d = pl_tell(c->job, PL_E038, at,
+                PL_F(c->job, "the index %s is no whole number%s", text, instance_text(c, " at ")),
+                PL_F(c->job, pl_german("the index %s is no whole number%s"), text,
+                     instance_text(c, pl_german(" at "))));
     const char* unknown = unknown_in(c, index);
-    if (unknown)
-      pl_report_reason(d, PL_F(c->job, "%s has no number", unknown),
-                       PL_F(c->job, "%s hat keinen Zahlenwert", unknown));
+    if (unknown) pl_report_reason(d, PL_BOTH_FORMAT(c->job->arena, "%s has no number", unknown));
     pl_report_fix(
-        d, "an index is built from whole numbers, loop indices and parameters with a number",
-        "ein Index besteht aus ganzen Zahlen, Laufindizes und Parametern mit Zahlenwert", NULL);
+        d,
+        PL_BOTH("an index is built from whole numbers, loop indices and parameters with a number"),
+        NULL);
     return;
   }
   d = pl_tell(c->job, PL_E037, at,
               PL_F(c->job, "%s[%ld] does not exist%s", name, c->bad, instance_text(c, ", at ")),
-              PL_F(c->job, "%s[%ld] gibt es nicht%s", name, c->bad, instance_text(c, ", bei ")));
-  pl_report_reason(d, PL_F(c->job, "%s runs from %ld to %ld", name, c->lo, c->hi),
-                   PL_F(c->job, "%s läuft von %ld bis %ld", name, c->lo, c->hi));
+              PL_F(c->job, pl_german("%s[%ld] does not exist%s"), name, c->bad,
+                   instance_text(c, pl_german(", at "))));
+  pl_report_reason(d, PL_BOTH_FORMAT(c->job->arena, "%s runs from %ld to %ld", name, c->lo, c->hi));
   if (c->coord->span.source) {
     pl_report_label(c->job->diagnostics, d, c->coord->span,
                     PL_F(c->job, "%s[%ld..%ld]", name, c->lo, c->hi));
