@@ -9,6 +9,7 @@
 #include "where_impl.h"
 
 enum { most = 24, most_steps = 40000, stages = 7 };  // coordinates; of one search; of a step
+static const double driven_steps = 5000;             // of a motion that a drive prescribes
 static const double most_work = 4e8;                 // operations of one search: some seconds
 static const double tolerance = 1e-12;  // of a step, relative to the largest value so far
 static const double safety = 0.9, grows = 4, shrinks = 0.2;
@@ -94,8 +95,8 @@ static bool starts(const flow* w, const pl_motion* motion, double* y) {
 }
 
 static bool follows(pl_analysis* d, flow* w, int assembly) {
-  if (!d->solved || !d->reduced || d->gen.n == 0 || d->gen.n > most || pl_nonholonomic(d))
-    return false;
+  bool still = d->gen.n == 0 && pl_scleronomic(d);  // a drive alone moves the others
+  if (!d->solved || !d->reduced || still || d->gen.n > most || pl_nonholonomic(d)) return false;
   for (int k = 0; k < d->gen.n; k++) {
     w->coordinate[w->n++] = d->gen.at[k];
     if (pl_is_poison(d->acceleration[d->gen.at[k]])) return false;
@@ -122,9 +123,12 @@ static pl_followed_how first_zero(const flow* w, double end, double* time, doubl
   double size[2 * most], next[2 * most], t = 0, h = 1e-3, before = watched(w, 0, y);
   int n = 2 * w->n, steps = steps_of(w);
   bool leaves = fabs(before) == 0;
+  // without coordinates there is no error that holds the step back
+  double longest = n == 0 ? end / driven_steps : end;
   for (int i = 0; i < n; i++) size[i] = fabs(y[i]) > 1e-3 ? fabs(y[i]) : 1e-3;
   for (int k = 0; k < steps && t < end; k++) {
     if (k % 256 == 255 && pl_interrupted(w->d->job)) return PL_FOLLOWED_NOT;
+    h = fmin(h, longest);
     if (t + h > end) h = end - t;
     double error = step(w, t, y, h, size, next) / tolerance;
     if (!(error <= 1)) {

@@ -132,7 +132,46 @@ def check_net(program):
     tap.check("a value that divides by zero for the given numbers is told", "has no value" in words(answers[0]), words(answers[0]))
 
 
+FOURBAR = """param a = 0.1, b = 0.3, c = 0.25, d = 0.3, W = 2, m = 1, g = 9.81
+coord φ, x1, y1, x2, y2
+mass A: m at (x1, y1)
+mass B: m at (x2, y2)
+gravity g along -y
+constraint crankx: x1 = a cos φ
+constraint cranky: y1 = a sin φ
+constraint coupler: (x2 - x1)^2 + (y2 - y1)^2 = b^2
+constraint rocker: (x2 - d)^2 + y2^2 = c^2
+constraint M: φ = W t
+branch y2 > 0
+ask λ_M where φ = 450°
+simulate 0..5
+"""
+
+
+def fourbar_place(angle):
+    """Joint B: the upper intersection of the circles of coupler and rocker."""
+    x, y = 0.1 * math.cos(angle), 0.1 * math.sin(angle)
+    far = math.hypot(0.3 - x, y)
+    along = (far**2 + 0.3**2 - 0.25**2) / (2 * far)
+    across = math.sqrt(0.3**2 - along**2)
+    ex, ey = (0.3 - x) / far, -y / far
+    return x, y, x + along * ex - across * ey, y + along * ey + across * ex
+
+
+def check_drive(program):
+    """A drive moves all: the moment of the drive is the power into the linkage over its rate."""
+    def energy(t, h=1e-4):
+        p, q, r = (fourbar_place(2 * s) for s in (t - h, t, t + h))
+        return sum(((z - x) / (2 * h))**2 / 2 for x, z in zip(p, r)) + 9.81 * (q[1] + q[3])
+    t, h = math.radians(450) / 2, 1e-3
+    moment = (energy(t + h) - energy(t - h)) / (2 * h) / 2
+    answers, document = solve(program, FOURBAR)
+    values = [v["number"] for v in answers[0]["values"]]
+    tap.check("a linkage that a drive moves is followed to a place", len(values) == 1 and abs(values[0] - moment) < 1e-4 * abs(moment), (values, moment))
+
+
 def main(program):
+    check_drive(program)
     for case in MOTIONS:
         check_motion(program, *case)
     check_rests(program)
