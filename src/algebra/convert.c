@@ -160,8 +160,8 @@ static bool is_odd(pl_pool* p, pl_function f, pl_expr a) {
   return pl_same(pl_call(p, f, pl_neg(p, a)), pl_neg(p, pl_call(p, f, a)));
 }
 
-// Functions without relations to others (asin, acos, atan) of a normalised argument; the odd ones with a normalised sign, acos(-u) = π -
-// acos(u).
+// Functions without relations to others (asin, acos, atan) of a normalised argument; the odd ones
+// with a normalised sign, acos(-u) = π - acos(u).
 static pl_frac convert_formal(pl_tower* t, pl_function f, pl_expr argument) {
   pl_frac u = pl_convert(t, argument);
   bool flip = pl_poly_leading_sign(t, u.num) < 0 && (f == PL_ACOS || is_odd(t->pool, f, argument));

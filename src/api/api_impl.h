@@ -115,7 +115,8 @@ void pl_api_stage(pleuel* ctx, pleuel_stage stage);
 typedef pleuel_status pl_api_work(pleuel_model* m, void* argument);
 // Runs work under a guard.  Status and sentence of the job become those of the context.
 pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument);
-// The same for calls that make a text or a motion: the job works in m->work, which is emptied first.
+// The same for calls that make a text or a motion: the job works in m->work, which is emptied
+// first.
 pleuel_status pl_api_worked(pleuel_model* m, pl_api_work* work, void* argument);
 pl_language pl_api_language(const char* name, pl_language otherwise);
 // What is asked for, else what the file names, else what the context speaks.

@@ -5,7 +5,7 @@
 
 #include "api/system_impl.h"
 
-// ------------------------------------------------------------------------------------------- memory
+// ------------------------------------------------------------------------------------------ memory
 static void* take(const pleuel_result* r, size_t n) {
   const pleuel_allocator* a = &r->system->model->alloc;
   return a->take ? a->take(a->user, n) : malloc(n);
@@ -62,7 +62,7 @@ void pleuel_result_free(pleuel_result* r) {
   pleuel_system_free(system);
 }
 
-// --------------------------------------------------------------------------------------------- rows
+// -------------------------------------------------------------------------------------------- rows
 static pleuel_status on_begin(void* user, const pl_setup* setup) {
   pleuel_result* r = user;
   r->setup = setup;
@@ -113,7 +113,7 @@ void pl_result_close(pleuel_result* r, pleuel_status status, const char* message
   r->setup = NULL;
 }
 
-// ------------------------------------------------------------------------------------------ reading
+// ----------------------------------------------------------------------------------------- reading
 pleuel_status pleuel_result_summary(const pleuel_result* r, pleuel_summary* out) {
   if (!r || !out) return PLEUEL_USAGE;
   const pl_result* s = r->story;

@@ -5,7 +5,7 @@
 
 #include "api/run_impl.h"
 
-// ------------------------------------------------------------------------------------- guarded calls
+// ----------------------------------------------------------------------------------- guarded calls
 void pl_api_run_drop(pleuel_run* r) {
   if (r->run) pl_run_free(r->run);
   if (r->probe) pl_run_free(r->probe);
@@ -44,7 +44,7 @@ void pleuel_run_interrupt_clear(pleuel_run* r) {
   if (r) atomic_store(&r->interruption.asked, 0);
 }
 
-// ------------------------------------------------------------------------------------- open and close
+// ---------------------------------------------------------------------------------- open and close
 static pleuel_run* make(pleuel_system* s, pl_arena* arena, pl_arena* motion,
                         const pleuel_sim_options* o) {
   pleuel_run* r = PL_NEW(arena, pleuel_run);
@@ -113,7 +113,7 @@ void pleuel_run_close(pleuel_run* r) {
   pleuel_system_free(s);
 }
 
-// ------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 static void set_given(pleuel_run* r, int i, double x) {
   for (int k = 0; k < r->given.n; k++) {
     if (r->given.at[k] != i) continue;
@@ -179,7 +179,7 @@ void pleuel_run_reset(pleuel_run* r) {
   if (r) r->given.n = r->given_value.n = r->starts.n = 0;
 }
 
-// --------------------------------------------------------------------------------------------- events
+// ------------------------------------------------------------------------------------------ events
 static pleuel_status on_begin(void* user, const pl_setup* setup) {
   (void)user;
   (void)setup;
@@ -222,7 +222,7 @@ pleuel_status pleuel_run_event(pleuel_run* r, pleuel_event* out) {
   return pl_event_give(&r->event, out);
 }
 
-// ---------------------------------------------------------------------------------------------- start
+// ------------------------------------------------------------------------------------------- start
 bool pl_api_run_is_turned(const pleuel_run* r) { return r->numbered.turned != NULL; }
 
 const pl_setup* pl_api_run_setup(const pleuel_run* r) {
@@ -301,7 +301,7 @@ pleuel_status pleuel_run_start(pleuel_run* r) {
   return r ? pl_api_run_guarded(r, start_whole, NULL) : PLEUEL_USAGE;
 }
 
-// --------------------------------------------------------------------------------------------- inputs
+// ------------------------------------------------------------------------------------------ inputs
 pleuel_status pleuel_run_input(pleuel_run* r,
                                int (*input)(void* user, pleuel_run* run, double t, double* u),
                                void* user, double dt) {
@@ -326,14 +326,14 @@ static pleuel_status ask_inputs(pleuel_run* r, double t) {
   return PLEUEL_OK;
 }
 
-// -------------------------------------------------------------------------------------------- forward
-typedef struct pl_way {
+// ----------------------------------------------------------------------------------------- forward
+typedef struct pl_run_way {
   double t;
   bool to_event;
-} pl_way;
+} pl_run_way;
 
 static pleuel_status advance(pleuel_run* r, void* argument) {
-  const pl_way* w = argument;
+  const pl_run_way* w = argument;
   PL_TRY(pl_api_run_need_start(r));
   if (r->stopped != PLEUEL_OK)
     return pl_fail(&r->job, r->stopped, "the motion has ended: start it again");
@@ -361,7 +361,8 @@ static pleuel_status moved(pleuel_run* r, pleuel_status s) {
 }
 
 pleuel_status pleuel_run_advance(pleuel_run* r, double t, int to_event) {
-  return r ? moved(r, pl_api_run_guarded(r, advance, &(pl_way){t, to_event != 0})) : PLEUEL_USAGE;
+  return r ? moved(r, pl_api_run_guarded(r, advance, &(pl_run_way){t, to_event != 0}))
+           : PLEUEL_USAGE;
 }
 
 static pleuel_status step(pleuel_run* r, void* unused) {
@@ -378,7 +379,7 @@ pleuel_status pleuel_run_step(pleuel_run* r) {
   return r ? moved(r, pl_api_run_guarded(r, step, NULL)) : PLEUEL_USAGE;
 }
 
-// ---------------------------------------------------------------------------------- rows at given times
+// ----------------------------------------------------------------------------- rows at given times
 typedef struct pl_sampling {
   const double* t;
   size_t n, stride;
@@ -414,7 +415,7 @@ static pleuel_status sample(pleuel_run* r, void* argument) {
   fill_here(r, s);
   pl_run_rows_at(r->run, s->t, (int)s->n);
   pleuel_status status = PLEUEL_OK;
-  if (r->block_at < s->n) status = advance(r, &(pl_way){s->t[s->n - 1], false});
+  if (r->block_at < s->n) status = advance(r, &(pl_run_way){s->t[s->n - 1], false});
   if (status == PLEUEL_OK) fill_here(r, s);
   r->block = NULL;
   if (status == PLEUEL_OK && r->block_at < s->n)

@@ -6,7 +6,7 @@
 
 #include "api/run_impl.h"
 
-// --------------------------------------------------------------------------------------------- states
+// ------------------------------------------------------------------------------------------ states
 // The motion goes on from a state of its own: constraints and contacts are those met there.
 static pleuel_status begin_at(pleuel_run* r, double t, const double* q, const double* v) {
   if (pl_api_run_is_turned(r)) {
@@ -19,13 +19,13 @@ static pleuel_status begin_at(pleuel_run* r, double t, const double* q, const do
   return pl_run_start_at(r->run, t, q, v);
 }
 
-pleuel_status pl_api_run_need_plain(pleuel_run* r) {
+static pleuel_status pl_api_run_need_plain(pleuel_run* r) {
   if (!r->system->plain) return PLEUEL_OK;
   return pl_fail(&r->job, PLEUEL_UNSUPPORTED,
                  "a motion with sensitivities goes on from no other state");
 }
 
-pleuel_status pl_api_run_begin_from(pleuel_run* r, const pl_state_given* s) {
+static pleuel_status pl_api_run_begin_from(pleuel_run* r, const pl_state_given* s) {
   pl_run_options how = pl_api_run_options_of(r);
   how.dt = 0;
   how.count = 0;
@@ -81,8 +81,8 @@ static void give_lambda(const pleuel_run* r, const pl_row* row, double* out) {
   }
 }
 
-void pl_api_run_give_state(const pleuel_run* r, const pl_row* row, double* q, double* v, double* a,
-                           double* lambda) {
+static void pl_api_run_give_state(const pleuel_run* r, const pl_row* row, double* q, double* v,
+                                  double* a, double* lambda) {
   size_t n = (size_t)r->system->n_q * sizeof(double);
   if (q) memcpy(q, row->q, n);
   if (v) memcpy(v, row->v, n);
@@ -172,7 +172,7 @@ pleuel_status pleuel_run_get(pleuel_run* r, const char* name, double* si) {
   return r && name && si ? pl_api_run_guarded(r, get, &(pl_number_wanted){name, si}) : PLEUEL_USAGE;
 }
 
-// --------------------------------------------------------------------------- accelerations elsewhere
+// ------------------------------------------------------------------------- accelerations elsewhere
 static pleuel_status make_probe(pleuel_run* r) {
   if (r->probe) return PLEUEL_OK;
   pl_run_options how = pl_api_run_options_of(r);
@@ -206,7 +206,7 @@ pleuel_status pleuel_run_rhs(pleuel_run* r, double t, const double* q, const dou
   return pl_api_run_guarded(r, rhs, &(pl_state_given){t, q, v, a, lambda});
 }
 
-// --------------------------------------------------------------------------------------- linearisation
+// ----------------------------------------------------------------------------------- linearisation
 // Central differences of sixth order: the best step is the seventh root of a rounding.
 static const double part_of_size = 0.0058;
 static const double weight[] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
@@ -314,7 +314,7 @@ pleuel_status pleuel_run_linearise(pleuel_run* r, double* a_q, double* a_v, doub
   return pl_api_run_guarded(r, linearise, &(pl_linear){.a_q = a_q, .a_v = a_v, .a_u = a_u});
 }
 
-// ------------------------------------------------------------------------------------------- as bytes
+// ---------------------------------------------------------------------------------------- as bytes
 // What must be the same in the run that goes on: text, settings, numbers, options, version.
 static uint64_t identity(const pleuel_run* r) {
   const pleuel_model* m = r->system->model;
@@ -348,14 +348,14 @@ static void keep_head(pleuel_run* r, pl_keeper* k, uint64_t* whose) {
   pl_keep_f64(k, &r->input_next);
 }
 
-typedef struct pl_bytes {
+typedef struct pl_run_bytes {
   void* to;
   const void* from;
   size_t n;
-} pl_bytes;
+} pl_run_bytes;
 
 static pleuel_status save(pleuel_run* r, void* argument) {
-  pl_bytes* b = argument;
+  pl_run_bytes* b = argument;
   PL_TRY(pl_api_run_need_start(r));
   pl_mark mark = pl_arena_mark(r->motion);
   pl_keeper k = pl_keeper_to_write(r->motion);
@@ -371,7 +371,7 @@ static pleuel_status save(pleuel_run* r, void* argument) {
 
 pleuel_status pleuel_run_save(pleuel_run* r, void* bytes, size_t* n) {
   if (!r || !n) return PLEUEL_USAGE;
-  pl_bytes b = {bytes, NULL, *n};
+  pl_run_bytes b = {bytes, NULL, *n};
   pleuel_status s = pl_api_run_guarded(r, save, &b);
   *n = b.n;
   return s;
@@ -392,7 +392,7 @@ static pleuel_status begin_again(pleuel_run* r) {
 }
 
 static pleuel_status restore(pleuel_run* r, void* argument) {
-  const pl_bytes* b = argument;
+  const pl_run_bytes* b = argument;
   uint64_t whose = 0;
   pl_keeper k = pl_keeper_to_read(r->motion, b->from, b->n);
   PL_TRY(pl_api_run_clear(r));
@@ -408,10 +408,10 @@ static pleuel_status restore(pleuel_run* r, void* argument) {
 
 pleuel_status pleuel_run_restore(pleuel_run* r, const void* bytes, size_t n) {
   if (!r || !bytes) return PLEUEL_USAGE;
-  return pl_api_run_guarded(r, restore, &(pl_bytes){NULL, bytes, n});
+  return pl_api_run_guarded(r, restore, &(pl_run_bytes){NULL, bytes, n});
 }
 
-// -------------------------------------------------------------------------------------------- at once
+// ----------------------------------------------------------------------------------------- at once
 static pleuel_status whole(pleuel_run* r, pleuel_result* result) {
   if (r->input)
     return pl_fail(&r->job, PLEUEL_USAGE, "a run with inputs by a function advances to a time");

@@ -5,7 +5,7 @@
 #include "api/system_impl.h"
 #include "report/report.h"
 
-// ------------------------------------------------------------------------------------------- owners
+// ------------------------------------------------------------------------------------------ owners
 pleuel_system* pleuel_system_keep(pleuel_system* s) {
   if (s) atomic_fetch_add(&s->owners, 1);
   return s;
@@ -18,7 +18,7 @@ void pleuel_system_free(pleuel_system* s) {
   pl_model_drop(m);
 }
 
-// ------------------------------------------------------------------------------------------ options
+// ----------------------------------------------------------------------------------------- options
 pleuel_status pl_sim_options_check(pl_job* job, const pleuel_sim_options* o) {
   if (o->has_until && !isfinite(o->until))
     return pl_fail(job, PLEUEL_USAGE, "the end of the run is no number");
@@ -60,7 +60,7 @@ void pl_sim_options_own(pl_arena* a, pleuel_sim_options* o) {
   o->resume_command = NULL;
 }
 
-// -------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 static void add(pleuel_system* s, pl_quantities* list, pleuel_kind kind, const char* name,
                 const char* shown, const char* unit, int index) {
   pl_quantity q = {kind, name, shown, unit ? unit : "", index};
@@ -142,7 +142,7 @@ static void name_columns(pleuel_system* s) {
   for (int i = 0; i < n; i++) pl_push(s->arena, s->columns, quantity_of(s, &column[i]));
 }
 
-// ------------------------------------------------------------------------------------------- making
+// ------------------------------------------------------------------------------------------ making
 static pleuel_status record(pleuel_system* s, pl_job* job) {
   pleuel_model* m = s->model;
   bool exact = s->options.precision != PLEUEL_PRECISION_DOUBLE;
@@ -222,7 +222,7 @@ pleuel_status pleuel_system_make(pleuel_model* m, pleuel_system** system,
   return PLEUEL_OK;
 }
 
-// ------------------------------------------------------------------------------------------ reading
+// ----------------------------------------------------------------------------------------- reading
 const pl_quantity* pl_api_quantity(const pleuel_system* s, pleuel_kind kind, const char* name) {
   const pl_quantities* list = &s->of[kind];
   for (int i = 0; i < list->n; i++)

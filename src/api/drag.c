@@ -142,7 +142,6 @@ pl_manifold* pl_manifold_make(pl_arena* a, pl_model* model, double* value) {
   return m;
 }
 
-int pl_manifold_n(const pl_manifold* m) { return m->n; }
 pl_symbol pl_manifold_coordinate(const pl_manifold* m, int i) { return m->q[i]; }
 pl_symbol pl_manifold_velocity(const pl_manifold* m, int i) { return m->v[i]; }
 

@@ -13,7 +13,6 @@ typedef struct pl_manifold pl_manifold;
 // walls.  NULL: too large.
 pl_manifold* pl_manifold_make(pl_arena* a, pl_model* flat, double* value);
 
-int pl_manifold_n(const pl_manifold* m);
 pl_symbol pl_manifold_coordinate(const pl_manifold* m, int i);
 pl_symbol pl_manifold_velocity(const pl_manifold* m, int i);
 

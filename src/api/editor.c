@@ -65,7 +65,7 @@ pleuel_status pl_editor_guarded_in(pleuel_model* m, pl_arena* a, pl_editor_work*
   return status;
 }
 
-pl_arena* pl_editor_fresh(pleuel_model* m, pl_answer_kind kind) {
+static pl_arena* pl_editor_fresh(pleuel_model* m, pl_answer_kind kind) {
   pl_editor* e = pl_editor_of(m);
   if (!e) return NULL;
   if (e->answer[kind]) pl_arena_free(e->answer[kind]);

@@ -37,8 +37,6 @@ typedef struct pl_editor {
 // The editor of a model; NULL when memory ran out.
 pl_editor* pl_editor_of(pleuel_model* m);
 void pl_editor_free(pl_editor* e);
-// The arena of an answer, empty; its guard is begun by pl_editor_answer.
-pl_arena* pl_editor_fresh(pleuel_model* m, pl_answer_kind kind);
 
 typedef pleuel_status pl_editor_work(pleuel_model* m, pl_arena* a, void* argument);
 // Runs work whose answer lives in an arena of its own until the same is asked again.

@@ -66,8 +66,8 @@ static void find_contradiction(pleuel_model* m) {
   if (pl_diagnostics_have(&m->diagnostics, PL_E042)) pl_diagnostics_drop(&m->diagnostics, PL_E041);
 }
 
-// Of a text with errors what can be read: what is wrong with that may follow from what is missing, so nothing is
-// reported.
+// Of a text with errors what can be read: what is wrong with that may follow from what is missing,
+// so nothing is reported.
 static pleuel_status check_whole_part(pleuel_model* m) {
   pl_diagnostics unheard = {.arena = m->arena};
   m->job.diagnostics = &unheard;
@@ -156,7 +156,7 @@ pleuel_status pl_pipeline_structure(pleuel_model* m) {
   return m->is_derived ? m->derived : derive(m, NULL, 0, true, false);
 }
 
-// checked model -> setup of the motion: patterns, start values, events.  The run that belongs to the
+// checked model -> setup of the motion: patterns, start values, events. The run that belongs to the
 // recording before is forgotten with it.
 static pleuel_status record(pleuel_model* m, const char* sensitivities) {
   double start = pl_clock();

@@ -54,7 +54,6 @@ typedef struct pl_state_given {
 
 void pl_api_run_drop(pleuel_run* r);  // the motion at work
 pleuel_status pl_api_run_need_start(pleuel_run* r);
-pleuel_status pl_api_run_need_plain(pleuel_run* r);  // no derivatives
 bool pl_api_run_is_turned(const pleuel_run* r);
 const pl_setup* pl_api_run_setup(const pleuel_run* r);  // that is integrated
 pl_run_options pl_api_run_options_of(const pleuel_run* r);
@@ -62,10 +61,6 @@ pl_sink pl_api_run_sink(pleuel_run* r);
 // The memory of the motion is empty, and the numbers are put in.
 pleuel_status pl_api_run_clear(pleuel_run* r);
 pleuel_status pl_api_run_begin(pleuel_run* r, const pl_run_options* how, pl_run** out);
-pleuel_status pl_api_run_begin_from(pleuel_run* r, const pl_state_given* s);
 pleuel_status pl_api_run_restart(pleuel_run* r);  // from where it is, with other numbers
-// Multipliers: of those that have a column.
-void pl_api_run_give_state(const pleuel_run* r, const pl_row* row, double* q, double* v, double* a,
-                           double* lambda);
 
 #endif

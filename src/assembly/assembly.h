@@ -62,11 +62,11 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
                         pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
-// ------------------------------------------------------------------------------------------ numbers
+// ----------------------------------------------------------------------------------------- numbers
 // Parameters and start values of a recording that can be given other values, without recording
-// again.  What depends on them follows in the order in which the recording found it.  A pl_numbers
-// does not change once it is made, and reads the pool as it was then: several threads may evaluate it
-// at the same time, each with an arena of its own.
+// again. What depends on them follows in the order in which the recording found it. A pl_numbers
+// does not change once it is made, and reads the pool as it was then: several threads may evaluate
+// it at the same time, each with an arena of its own.
 
 // A parameter or a kept abbreviation; each stands behind those that it is defined by.
 typedef struct pl_number_given {
@@ -118,8 +118,8 @@ typedef struct pl_numbers_set {
   const pl_number_start_set* starts;  //                                    (n_starts)
 } pl_numbers_set;
 
-// pl_numbers_apply gives the setups of a recording with these numbers; *t holds t_0, t_end, dt, tol.
-// Status PLEUEL_USAGE with the sentence in the job where a number is none, or not allowed.
+// pl_numbers_apply gives the setups of a recording with these numbers; *t holds t_0, t_end, dt,
+// tol. Status PLEUEL_USAGE with the sentence in the job where a number is none, or not allowed.
 pleuel_status pl_numbers_apply(pl_job* job, const pl_recording* recording,
                                const pl_numbers_set* set, pl_recording* out);
 

@@ -1,4 +1,5 @@
-// Numbers of a recording (assembly.h): what is taken down while it is made, and other numbers put in.
+// Numbers of a recording (assembly.h): what is taken down while it is made, and other numbers put
+// in.
 #include <math.h>
 #include <string.h>
 

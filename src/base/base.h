@@ -166,8 +166,8 @@ const char* pl_source_line(pl_arena* a, const pl_source* s, int line);
 typedef enum pl_language { PL_ENGLISH = 0, PL_GERMAN = 1 } pl_language;
 
 // ------------------------------------------------------------------------------------- diagnostics
-// Codes live in messages/diagnostics.def, one page each in docs/diagnostics. E... error, W... warning,
-// N... note.
+// Codes live in messages/diagnostics.def, one page each in docs/diagnostics. E... error, W...
+// warning, N... note.
 typedef enum pl_code {
 #define PL_DIAGNOSTIC(code, title_en, title_de) PL_##code,
 #include "messages/diagnostics.def"
@@ -236,8 +236,8 @@ void pl_diagnostic_print(pl_text* out, const pl_diagnostic* m, pl_print_style st
 const char* pleuel_status_name(pleuel_status s);  // in pleuel.h too
 
 // -------------------------------------------------------------------------------- context of a job
-// The wish to stop, from other threads and signal handlers (asked), or of the one who is asked about
-// ten times a second in the thread that works (look).
+// The wish to stop, from other threads and signal handlers (asked), or of the one who is asked
+// about ten times a second in the thread that works (look).
 typedef struct pl_interruption {
   atomic_int asked;
   bool (*look)(void* user);  // true: stop; or NULL

@@ -1,6 +1,5 @@
 // closed_motion: coordinates as functions of time. x'' = A + B x + C x' with constant A, B, C: the
-// general solution through x(0),
-// x'(0)  [Arnold 1989, sec. 5]; else by the Laplace transform.
+// general solution through x(0), x'(0) [Arnold1989, sec. 5]; else by the Laplace transform.
 #include "mechanics/mechanics.h"
 
 static bool is_parameter(pl_analysis* d, pl_expr e) {

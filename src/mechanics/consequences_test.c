@@ -1,5 +1,5 @@
-// What follows from the equations: integrals, momenta, closed motions, transforms, oscillations, shared
-// forces, named intermediates.
+// What follows from the equations: integrals, momenta, closed motions, transforms, oscillations,
+// shared forces, named intermediates.
 #include "equilibria.h"
 #include "mechanics_test_kit.h"
 #include "structured.h"
@@ -8,7 +8,7 @@
   "param m = 1 [kg], l = 2 [m], g = 9.81 [m/s^2]\ncoord phi\naxes x right, y up\n" \
   "mass A: m at (l sin phi, -l cos phi)\ngravity g along -y\n"
 
-// ---------------------------------------------------------------------------------------- integrals
+// --------------------------------------------------------------------------------------- integrals
 static void the_energy_gives_the_velocity_squared(void** state) {
   (void)state;
   kit* k = kit_open(PENDULUM "param a = 60°\ninit phi = a, phi' = 0\n");
@@ -53,7 +53,7 @@ static void a_driven_frame_has_jacobis_integral(void** state) {
   kit_free(k);
 }
 
-// ------------------------------------------------------------------------------------------ momenta
+// ----------------------------------------------------------------------------------------- momenta
 static void two_free_masses_keep_two_momenta_and_one_turn(void** state) {
   (void)state;
   kit* k = kit_open(

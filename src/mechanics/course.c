@@ -111,9 +111,12 @@ static bool step(const line_of* l, walk* w, double u, bool domain_ends) {
     w->n = 0;
     return false;
   }
-  w->u[0] = w->u[1], w->f[0] = w->f[1];
-  w->u[1] = w->u[2], w->f[1] = w->f[2];
-  w->u[2] = u, w->f[2] = f;
+  w->u[0] = w->u[1];
+  w->f[0] = w->f[1];
+  w->u[1] = w->u[2];
+  w->f[1] = w->f[2];
+  w->u[2] = u;
+  w->f[2] = f;
   w->n++;
   if (fabs(f) > w->size) w->size = fabs(f);
   bool underflows = f == 0 && fabs(w->f[1]) < faded;
@@ -232,7 +235,10 @@ bool pl_course_make(pl_analysis* d, double* value, pl_symbol q, pl_expr v2, doub
   while (c->n_legs < pl_max_legs && c->leg[c->n_legs - 1].end == PL_END_TURN) {
     const pl_leg* last = &c->leg[c->n_legs - 1];
     pl_leg next = leg_from(c, last->to, -last->sign, true);
-    if (c->n_legs == 2) next.to = c->leg[0].to, next.end = PL_END_TURN;  // back to the first turn
+    if (c->n_legs == 2) {
+      next.to = c->leg[0].to;
+      next.end = PL_END_TURN;
+    }  // back to the first turn
     c->leg[c->n_legs++] = next;
   }
   return true;

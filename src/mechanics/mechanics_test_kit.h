@@ -1,5 +1,5 @@
-// For the tests of mechanics: a text becomes an analysis; its expressions are compared with texts, or
-// with numbers at points where all symbols have values.
+// For the tests of mechanics: a text becomes an analysis; its expressions are compared with texts,
+// or with numbers at points where all symbols have values.
 #ifndef PL_MECHANICS_TEST_KIT_H
 #define PL_MECHANICS_TEST_KIT_H
 

@@ -1,5 +1,5 @@
-// Generalized coordinates, closed loops, proposed coordinates: maps satisfy the constraints, velocities
-// are what differences of the maps give.
+// Generalized coordinates, closed loops, proposed coordinates: maps satisfy the constraints,
+// velocities are what differences of the maps give.
 #include "mechanics_test_kit.h"
 #include "propose.h"
 

@@ -425,7 +425,10 @@ static double least_pivot(double* A, int n) {
     int row = step, column = step;
     for (int i = step; i < n; i++)
       for (int j = step; j < n; j++)
-        if (fabs(A[i * n + j]) > fabs(A[row * n + column])) row = i, column = j;
+        if (fabs(A[i * n + j]) > fabs(A[row * n + column])) {
+          row = i;
+          column = j;
+        }
     pivot = fabs(A[row * n + column]);
     if (step == 0) largest = pivot;
     if (!(pivot > 0)) return pivot;

@@ -455,7 +455,8 @@ double* pl_model_values(const pl_model* m, pl_arena* a);
 // nothing is.
 pl_expr* pl_model_definitions(const pl_model* m, pl_arena* a);
 
-// Names whose numbers decide how large the system is: bounds of families and sums, indices; and what
+// Names whose numbers decide how large the system is: bounds of families and sums, indices; and
+// what
 // those are defined by.  By symbol id.                                     (pl_symbol_count + 1)
 bool* pl_model_sizes(pl_model* m, pl_arena* a);
 

@@ -1,5 +1,5 @@
-// Drawings: where strokes lie, what a frame of a scene becomes, and that no text of a model leaves its
-// element.
+// Drawings: where strokes lie, what a frame of a scene becomes, and that no text of a model leaves
+// its element.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -79,8 +79,8 @@ static void a_point_without_a_place_is_not_written(void** state) {
   pl_arena_free(a);
 }
 
-// A mass at the left end of a rod, drawn into a rectangle: left in the picture is left in the model,
-// up is up, and both axes have one scale.
+// A mass at the left end of a rod, drawn into a rectangle: left in the picture is left in the
+// model, up is up, and both axes have one scale.
 static void a_scene_keeps_its_directions_and_its_scale(void** state) {
   (void)state;
   pl_arena* a = pl_arena_make(NULL);

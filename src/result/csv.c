@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// ------------------------------------------------------------------------------------------- where to
+// ---------------------------------------------------------------------------------------- where to
 // A file, or a function of the caller, which is handed blocks.
 typedef struct outlet {
   FILE* file;

@@ -8,10 +8,10 @@
 #include "scene/scene_impl.h"
 
 enum { SAMPLES = 4, MOST_TOUCHES = 8, MOST_NAMED = 24 };
-typedef struct pl_outline {
+typedef struct pl_body_outline {
   int thing;
   double half, thick, radius;
-} pl_outline;
+} pl_body_outline;
 // p for each sense
 typedef struct pl_touch {
   int bond;
@@ -28,7 +28,7 @@ typedef struct pl_floor {
 
 // ----------------------------------------------------------------------------------------- placing
 static void place_body(pl_stage* s, const pl_part* part, double* xyz) {
-  const pl_outline* o = part->data;
+  const pl_body_outline* o = part->data;
   const pl_thing* t = &s->things.at[o->thing];
   double c[3];
   pl_stage_spot(s, &t->spot, c);
@@ -51,7 +51,7 @@ static void place_body(pl_stage* s, const pl_part* part, double* xyz) {
 }
 
 static void place_spoke(pl_stage* s, const pl_part* part, double* xyz) {
-  const pl_outline* o = part->data;
+  const pl_body_outline* o = part->data;
   const pl_thing* t = &s->things.at[o->thing];
   pl_stage_spot(s, &t->spot, xyz);
   double a = t->sense * pl_stage_eval(s, t->body->angle);
@@ -213,7 +213,7 @@ static void add_floor(pl_stage* s, int thing, const pl_touch* touch, int sense, 
 }
 
 // ---------------------------------------------------------------------------------------- outlines
-static void add_outline(pl_stage* s, int i, const pl_outline* o) {
+static void add_outline(pl_stage* s, int i, const pl_body_outline* o) {
   pl_thing* t = &s->things.at[i];
   pl_part* p = pl_stage_add(s, PL_SHAPE_BODY, s->things.n > MOST_NAMED ? "" : t->label, t->name);
   p->n = o->radius > 0 ? 49 : 5;
@@ -234,7 +234,7 @@ static void find_outline(pl_stage* s, int i) {
   double k = 0, L = length_in(s, t->body, &k);
   double gyration =
       sqrt(fabs(pl_stage_eval(s, t->body->inertia) / pl_stage_eval(s, t->body->mass)));
-  pl_outline* o = PL_NEW(s->arena, pl_outline);
+  pl_body_outline* o = PL_NEW(s->arena, pl_body_outline);
   o->thing = i;
   if (L > 0 && near(k, 1.0 / 12)) o->half = L / 2;
   else if (L > 0 && near(k, 1.0 / 3)) o->half = L;

@@ -25,20 +25,11 @@ pleuel_status pl_output_point(pl_run* run, pl_row_kind kind);  // the point itse
 // grid times in (t_from, t_to)
 pleuel_status pl_output_grid(pl_run* run, double t_from, double t_to);
 pl_row pl_output_row(pl_run* run, pl_row_kind kind, double* out, char* mode);
-void pl_output_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
-                       const double* lambda, double* out);
 // remembers the point before a mode change
 void pl_output_before(pl_run* run);
-pleuel_status pl_output_event(pl_run* run, pl_event_kind kind, int index, double impulse,
-                              bool at_start);
 // An event whose state, in row_q and row_v, is not that of the point.
 pleuel_status pl_output_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
                                      const double* lambda);
-// A contact after endless bounces, dt after the point.
-pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, double dt,
-                                long bounces);
-// T + V, or what the setup says
-double pl_output_conserved(const pl_run* run, const double* out);
 // energy at the point, drift
 void pl_output_energy(pl_run* run, bool anew);
 // The mode as text: "contact(h)", "free".
@@ -57,9 +48,6 @@ typedef struct pl_lead {
   pleuel_status (*load)(pl_sensitivity* p, pl_keeper* k);
   void (*close)(pl_sensitivity* p);
 } pl_lead;
-
-// ---- run.c
-pleuel_status pl_run_begin_at(pl_run* run, double t);  // from run->q, v
 
 // ---- steppers.c: which steppers a run has
 void pl_steppers_choose(pl_run* run);

@@ -23,8 +23,8 @@ void pl_output_make(pl_run* run) {
   o->last_row_t = (double)NAN;
 }
 
-void pl_output_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
-                       const double* lambda, double* out) {
+static void pl_output_observe(pl_run* run, double t, const double* q, const double* v,
+                              const double* a, const double* lambda, double* out) {
   pl_batches* b = &run->observers;
   if (run->setup->n_out == 0) return;
   pl_attitude_seen(&run->dae, t, &q, &v, &a);
@@ -193,8 +193,8 @@ void pl_output_before(pl_run* run) {
   pl_output_mode(run, run->output->mode_before);
 }
 
-pleuel_status pl_output_event(pl_run* run, pl_event_kind kind, int index, double impulse,
-                              bool at_start) {
+static pleuel_status pl_output_event(pl_run* run, pl_event_kind kind, int index, double impulse,
+                                     bool at_start) {
   const pl_sink* s = &run->options.sink;
   bool of_event = kind == PL_EV_EVENT || kind == PL_EV_STOP;
   run->stats.n_events++;
@@ -242,8 +242,8 @@ pleuel_status pl_output_event_beside(pl_run* run, pl_event_record e, double t, c
   return how;
 }
 
-pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, double dt,
-                                long bounces) {
+static pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, double dt,
+                                       long bounces) {
   const pl_sink* s = &run->options.sink;
   run->stats.n_events++;
   if (!s->event) return PLEUEL_OK;
@@ -259,7 +259,7 @@ pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, doub
 }
 
 // ------------------------------------------------------------------------------------------ energy
-double pl_output_conserved(const pl_run* run, const double* out) {
+static double pl_output_conserved(const pl_run* run, const double* out) {
   const pl_setup* s = run->setup;
   return s->energy > 0 ? out[s->energy] : out[s->kinetic] + out[s->potential];
 }

@@ -205,11 +205,6 @@ void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lam
   if (lambda) pl_horner(run->dae.L_last, run->n_c, run->control.use_last - 1, dt, lambda);
 }
 
-const char* pl_run_mode(const pl_run* run) {
-  pl_output_mode(run, run->output->mode);
-  return run->output->mode;
-}
-
 pl_friction_report pl_run_friction(const pl_run* run, int friction) {
   const pl_friction_state* now = &run->dae.friction[friction];
   static const pl_friction_mode mode[] = {[PL_FRICTION_OFF] = PL_FRICTION_NONE,

@@ -12,7 +12,7 @@ static void set_sizes(pl_run* run) {
   pl_sizes_keep(&run->dae);
 }
 
-pleuel_status pl_run_begin_at(pl_run* run, double t) {
+static pleuel_status pl_run_begin_at(pl_run* run, double t) {
   run->dae.t = t;
   run->dae.t_low = 0;
   set_sizes(run);

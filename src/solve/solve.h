@@ -441,7 +441,6 @@ typedef struct pl_friction_report {
 pl_friction_report pl_run_friction(const pl_run* run, int friction);
 // by an event, or off: it is not watched either
 bool pl_run_is_released(const pl_run* run, int constraint);
-const char* pl_run_mode(const pl_run* run);
 
 // pl_run_dense evaluates the series of the last step at time t (within it). Any pointer may be
 // NULL.

@@ -115,7 +115,8 @@ bool pl_rest_place(pl_rest_field* f, double* q, const bool* held);
 // What is left of the equations at a position of the constraints, as a part of the forces there;
 // lambda as good as can be.
 double pl_rest_left(pl_rest_field* f, const double* q, double* lambda);
-// The forces jump there, as that of a spring of no length: no place of rest of the equations beside.
+// The forces jump there, as that of a spring of no length: no place of rest of the equations
+// beside.
 bool pl_rest_is_kink(pl_rest_field* f, const double* q);
 // 1 stable, -1 unstable, 0 not decided: by the eigenvalues of the motion beside a position of rest,
 // of at most two freedoms.

@@ -480,7 +480,10 @@ static double smallest_pivot(double complex* A, int d) {
     int row = k, column = k;
     for (int i = k; i < d; i++) {
       for (int j = k; j < d; j++) {
-        if (cabs(A[i * d + j]) > cabs(A[row * d + column])) row = i, column = j;
+        if (cabs(A[i * d + j]) > cabs(A[row * d + column])) {
+          row = i;
+          column = j;
+        }
       }
     }
     for (int j = 0; j < d; j++) {

@@ -38,8 +38,10 @@ static const char* lettered(pl_analysis* d, const char* s) {
     bool stands_alone = (at == s || !isalpha((unsigned char)at[-1]))
                         && !isalpha((unsigned char)at[1]) && !((unsigned char)at[1] & 0x80);
     if (*at == 'L' && stands_alone) pl_text_add(&t, pl_letter(d, "L"));
-    else if (strncmp(at, "dE/dt", 5) == 0) pl_text_addf(&t, "d%s/dt", pl_letter(d, "E")), at += 4;
-    else pl_text_add_n(&t, at, 1);
+    else if (strncmp(at, "dE/dt", 5) == 0) {
+      pl_text_addf(&t, "d%s/dt", pl_letter(d, "E"));
+      at += 4;
+    } else pl_text_add_n(&t, at, 1);
   }
   return pl_text_string(&t);
 }

@@ -428,8 +428,10 @@ bool pl_show_value_structured(pl_analysis* d, pl_expr asked, pl_expr e) {
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_with_results(d, asked));
   pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, asked), value, form);
   for (int k = first; k < f.s->lines.n && pl_same(asked, value); k++) {  // an unknown itself
-    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name)))
-      v->expr = f.s->lines.at[k].value, v->form = f.s->lines.at[k].form;
+    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name))) {
+      v->expr = f.s->lines.at[k].value;
+      v->form = f.s->lines.at[k].form;
+    }
   }
   add_where(d, f.s, v);
   return true;

@@ -20,8 +20,8 @@ static const char text[] =
     "simulate 0..2 [s]\n";
 
 // a text, its messages and its solution
-static int solve(pleuel *ctx, pleuel_model **model) {
-  const char *answer;
+static int solve(pleuel* ctx, pleuel_model** model) {
+  const char* answer;
   if (pleuel_load_text(ctx, model, text, strlen(text), NULL) != PLEUEL_OK
       || pleuel_solve_text(*model, &answer, NULL) != PLEUEL_OK) {
     puts(pleuel_message(ctx));
@@ -32,8 +32,8 @@ static int solve(pleuel *ctx, pleuel_model **model) {
 }
 
 // a motion as a whole: columns are arrays
-static int whole(pleuel_run *run) {
-  pleuel_result *result;
+static int whole(pleuel_run* run) {
+  pleuel_result* result;
   if (pleuel_run_complete(run, &result) != PLEUEL_OK) return 1;
   PLEUEL_OPTIONS(pleuel_column, x);
   pleuel_result_column(result, (size_t)pleuel_result_find(result, "x"), &x);
@@ -45,7 +45,7 @@ static int whole(pleuel_run *run) {
 }
 
 // a sweep: other numbers, nothing is derived again; the quarter of a period by the event
-static int sweep(pleuel_run *run) {
+static int sweep(pleuel_run* run) {
   for (double l = 0.25; l <= 1; l += 0.25) {
     PLEUEL_OPTIONS(pleuel_event, event);
     if (pleuel_run_set(run, "l", l) != PLEUEL_OK || pleuel_run_start(run) != PLEUEL_OK
@@ -61,14 +61,13 @@ static int sweep(pleuel_run *run) {
 }
 
 // step by step, with states between, and back to a state that was saved
-static int steps(pleuel_run *run) {
+static int steps(pleuel_run* run) {
   double q[2], lambda;
   unsigned char bytes[1 << 16];
   size_t n = sizeof bytes;
   if (pleuel_run_start(run) != PLEUEL_OK || pleuel_run_step(run) != PLEUEL_OK
       || pleuel_run_dense(run, 0.5 * pleuel_run_time(run), q, NULL, NULL, &lambda) != PLEUEL_OK
-      || pleuel_run_save(run, bytes, &n) != PLEUEL_OK
-      || pleuel_run_advance(run, 1, 0) != PLEUEL_OK
+      || pleuel_run_save(run, bytes, &n) != PLEUEL_OK || pleuel_run_advance(run, 1, 0) != PLEUEL_OK
       || pleuel_run_restore(run, bytes, n) != PLEUEL_OK) {
     puts(pleuel_run_message(run));
     return 1;
@@ -78,10 +77,10 @@ static int steps(pleuel_run *run) {
 }
 
 int main(void) {
-  pleuel *ctx = pleuel_open(NULL);
-  pleuel_model *model = NULL;
-  pleuel_system *system = NULL;
-  pleuel_run *run = NULL;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* model = NULL;
+  pleuel_system* system = NULL;
+  pleuel_run* run = NULL;
   int bad = solve(ctx, &model);
   bad = bad || pleuel_system_make(model, &system, NULL) != PLEUEL_OK;
   bad = bad || pleuel_run_open(system, &run, NULL) != PLEUEL_OK;

@@ -282,8 +282,6 @@ void pl_series_swap(pl_dae* dae);
 
 // ---- project.c
 pl_projection pl_project(pl_dae* dae, double t, double* q, double* v);
-// velocities onto G v + dg/dt = 0; (n_c)
-void pl_impulse(pl_dae* dae, double* v, double factor, double* impulse);
 // Largest |g| (or |G v + dg/dt|) of the active constraints, relative to the size of their terms.
 double pl_residual(const pl_dae* dae, const double* g, const double* size, bool positions);
 double pl_norm(const double* x, int n);

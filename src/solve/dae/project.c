@@ -97,13 +97,3 @@ pl_projection pl_project(pl_dae* dae, double t, double* q, double* v) {
   dae->factored = p.ok && !dae->has_W && !dae->mass_of_velocity;
   return p;
 }
-
-// Velocity jump of an impact: the factor belongs to the point.  factor 1: inelastic.
-void pl_impulse(pl_dae* dae, double* v, double factor, double* impulse) {
-  pl_batches_load_v(&dae->motion, v, 0);
-  pl_assemble_gdot(dae, dae->r, dae->r_size);
-  solve_correction(dae, dae->r, false);
-  for (int i = 0; i < dae->n_q; i++) v[i] += factor * dae->rhs[i];
-  for (int c = 0; c < dae->n_c; c++)
-    impulse[c] = dae->taken[c] || dae->slips[c] ? -factor * dae->rhs[dae->n_q + c] : 0;
-}

@@ -132,8 +132,6 @@ bool pl_watch_is_followed(pl_run* run, double h);
 void pl_watch_forget(pl_run* run);            // all sides unknown: after a start or a jump
 void pl_watch_passed(pl_run* run, double h);  // the step h was taken: sides at its end
 pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
-// an event gives places or velocities new values
-bool pl_event_sets(const pl_run* run, int e);
 double pl_watch_force_noise(const pl_run* run, int c);  // rounding error of λ_c
 // what of a watched value is rounding
 double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);

@@ -106,7 +106,7 @@ static bool is_watched(const pl_run* run, const pl_watch* w) {
          && (constraint->contact < 0 || run->dae.on[constraint->contact]);
 }
 
-bool pl_event_sets(const pl_run* run, int e) {
+static bool pl_event_sets(const pl_run* run, int e) {
   const pl_event_setup* event = &run->setup->events[e];
   for (int i = 0; i < event->n_actions; i++)
     if (event->actions[i].kind == PL_ACTION_SET_Q || event->actions[i].kind == PL_ACTION_SET_V)

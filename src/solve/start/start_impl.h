@@ -29,6 +29,5 @@ bool pl_start_velocities(pl_start* s, const bool* held);  // least norm in the m
 // independent active rows in what is not held
 int pl_start_rank(pl_start* s, const bool* held);
 double pl_start_residual(pl_start* s, const double* q, int* worst);
-double pl_start_velocity_residual(pl_start* s, const double* v, int* worst);
 
 #endif

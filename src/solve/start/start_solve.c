@@ -42,7 +42,7 @@ double pl_start_residual(pl_start* s, const double* q, int* worst) {
   return largest(run, run->dae.g, run->dae.g_size, true, worst);
 }
 
-double pl_start_velocity_residual(pl_start* s, const double* v, int* worst) {
+static double pl_start_velocity_residual(pl_start* s, const double* v, int* worst) {
   pl_run* run = s->run;
   run->dae.v_size = 0;
   for (int i = 0; i < run->n_q; i++) run->dae.v_most[i] = 0;

@@ -129,8 +129,6 @@ bool pl_radau_ready(pl_run* run);
 void pl_radau_residual(pl_run* run, pl_radau* r);  // F at the stages
 void pl_radau_sweep(pl_jet* jet, int k);           // what M, h, G, W need
 void pl_radau_load_instances(const pl_radau_lanes* w, double t, const double* q, const double* v);
-void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda,
-                        double* C);
 
 // ---- radau_shape.c
 void pl_radau_shape_make(pl_run* run, pl_radau* r);

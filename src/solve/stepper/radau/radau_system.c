@@ -229,8 +229,8 @@ static void residual_by_instances(const pl_run* run, pl_radau* r, const pl_radau
 }
 
 // m - κ λ in the rows of slip.
-void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda,
-                        double* C) {
+static void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda,
+                               double* C) {
   for (int k = 0; k < run->setup->n_frictions; k++) {
     const pl_friction_setup* friction = &run->setup->frictions[k];
     for (int i = 0; i < friction->n_rows && run->dae.friction[k].state == PL_FRICTION_SLIP; i++)

@@ -172,7 +172,7 @@ void pl_maker_end(pl_maker* k) {
 }
 
 // Order 0 of a node and its reciprocal, into memory.
-int pl_maker_value(pl_maker* k, int node) {
+static int pl_maker_value(pl_maker* k, int node) {
   pl_maker_instance* i = &k->instance[k->owner[node]];
   k->instance_now = k->owner[node];
   k->lower.tape = i->tape;

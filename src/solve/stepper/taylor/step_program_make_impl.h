@@ -85,7 +85,6 @@ int pl_maker_take(pl_maker* k, int n);  // n numbers of memory, aligned to 8
 void pl_maker_begin(pl_maker* k, pl_step_part part, const char* name, int width);
 void pl_maker_end(pl_maker* k);
 int pl_maker_start(pl_maker* k, int node);  // register of order 0
-int pl_maker_value(pl_maker* k, int node);  // computes order 0
 // order 0 of the nodes of a level
 void pl_maker_level(pl_maker* k, pl_tape_level level, const bool* set);
 // ---- step_program_nodes.c
