@@ -2,7 +2,8 @@
 #include "cli.h"
 
 const cli_flag flags_export[] = {
-    {"to", 0, CLI_CHOICE, CLI_AT(to), "sympy|mathematica|maxima|julia|json", "for which program"},
+    {"to", 0, CLI_CHOICE, CLI_AT(to), "sympy|mathematica|maxima|julia|python|json",
+     "for which program"},
     {"only", 0, CLI_TEXT, CLI_AT(only), "LETTERS", "only these requests: b,c"},
     CLI_FLAG_SET,
     {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE", "write there; otherwise, and with -, stdout"},
@@ -20,7 +21,7 @@ int verb_export(pleuel* ctx, const cli_options* o) {
     return cli_error(EXIT_USAGE, "export takes one file:  pleuel export FILE --to sympy");
   if (!o->to)
     return cli_error(EXIT_USAGE,
-                     "for which program?  --to sympy, mathematica, maxima, julia or json");
+                     "for which program?  --to sympy, mathematica, maxima, julia, python or json");
   int code = EXIT_DONE;
   pleuel_model* m = cli_load(ctx, o, o->files[0], &code);
   if (!m) return code;

@@ -252,7 +252,7 @@ pleuel_status pleuel_solve_text(pleuel_model *model, const char **text, const pl
 pleuel_status pleuel_solve_json(pleuel_model *model, const char **json, const pleuel_solve_options *options);
 
 /* pleuel_export returns the formulas of the worked solution in the language of another program: target is "sympy",
- * "mathematica", "maxima", "julia" or "json".  Of the options `only` and `seconds` count.  *text is set with
+ * "mathematica", "maxima", "julia", "python" or "json".  Of the options `only` and `seconds` count.  *text is set with
  * PLEUEL_EXPECT_FAILED and PLEUEL_NO_CLOSED_FORM too, for what there is. */
 pleuel_status pleuel_export(pleuel_model *model, const char **text, const char *target,
                             const pleuel_solve_options *options);

@@ -263,7 +263,8 @@ static pleuel_status export(pleuel_model* m, void* argument) {
   pl_export_input in = {.file = m->name, .only = a->solve->only};
   if (!pl_export_target_find(a->word, &in.target)) {
     return pl_fail(&m->job, PLEUEL_USAGE,
-                   "there is no export to `%s`: sympy, mathematica, maxima, julia, json", a->word);
+                   "there is no export to `%s`: sympy, mathematica, maxima, julia, python, json",
+                   a->word);
   }
   pleuel_status s = pl_pipeline_derive(m, a->solve->only, a->solve->seconds, false);
   if (!m->solution || s != PLEUEL_OK) return s;

@@ -19,7 +19,7 @@ const pl_dialect pl_dialects[] = {
      .rational = "sp.Rational($1, $2)",
      .rational_is_atom = true,
      .whole = "sp.Integer($1)",
-#define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = sympy,
+#define PL_EXPORT(id, sympy, mathematica, maxima, julia, python) [PL_##id] = sympy,
      .function =
          {
 #include "export/export.def"
@@ -40,7 +40,7 @@ const pl_dialect pl_dialects[] = {
      .sum = "Sum[$4, {$1, $2, $3}]",
      .rational = "$1/$2",
      .whole = "$1",
-#define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = mathematica,
+#define PL_EXPORT(id, sympy, mathematica, maxima, julia, python) [PL_##id] = mathematica,
      .function =
          {
 #include "export/export.def"
@@ -58,7 +58,7 @@ const pl_dialect pl_dialects[] = {
      .sum = "sum($4, $1, $2, $3)",
      .rational = "$1/$2",
      .whole = "$1",
-#define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = maxima,
+#define PL_EXPORT(id, sympy, mathematica, maxima, julia, python) [PL_##id] = maxima,
      .function =
          {
 #include "export/export.def"
@@ -83,7 +83,7 @@ const pl_dialect pl_dialects[] = {
      .rational = "($1//$2)",
      .rational_is_atom = true,
      .whole = "$1",
-#define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = julia,
+#define PL_EXPORT(id, sympy, mathematica, maxima, julia, python) [PL_##id] = julia,
      .function =
          {
 #include "export/export.def"
@@ -94,6 +94,26 @@ const pl_dialect pl_dialects[] = {
                  " elseif end export false finally for function global if import in isa let local "
                  "macro module mutable pi"
                  " primitive quote return struct sum sqrt true try type using where while ",
+     .comment = {"# ", ""}},
+    {.word = "python",
+     .power = "**",
+     .pi = "np.pi",
+     .infinity = "np.inf",
+     .root = "np.sqrt($1)",
+     .condition = "np.where($1 > 0, $2, $3)",
+     .sum = "sum($4 for $1 in range(int($2), int($3) + 1))",
+     .rational = "($1/$2)",
+     .rational_is_atom = true,
+     .whole = "$1",
+#define PL_EXPORT(id, sympy, mathematica, maxima, julia, python) [PL_##id] = python,
+     .function =
+         {
+#include "export/export.def"
+         },
+#undef PL_EXPORT
+     .reserved = " np values sum range int False None True and as assert async await break class "
+                 "continue def del elif else except finally for from global if import in is lambda "
+                 "nonlocal not or pass raise return try while with yield ",
      .comment = {"# ", ""}},
 };
 
@@ -465,31 +485,49 @@ static void add_maxima(exporter* x) {
   add(x, "]$\n");
 }
 
-// A function of all names; those without number are NaN unless they are given. Each value is a
-// function too, so that a root of a negative number spoils no other.
-static void add_julia(exporter* x) {
-  add_header(x,
-             "pleuel_values(; x = 0.1)[\"KEY\"]() is a number; names that are not given have the "
-             "number of the model or NaN.");
+// "x = 0.1" for each name; what stands for a number that is not known is a word of the target.
+static void add_names_with_numbers(exporter* x, const char* between, const char* missing) {
   const double* value = pl_model_values(x->model, x->arena);
-  add(x, "function pleuel_values(;");
   bool first = true;
   for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
     pl_symbol s = {(uint32_t)i};
     if (!x->used[i] || pl_symbol_get(x->pool, s)->role == PL_R_INDEX || is_abbreviation(x, s))
       continue;
     for (int k = 0; k < dots_of(x, s); k++) {
-      pl_text_addf(x->out, "%s%s = ", first ? " " : ", ", name_of(x, s, k));
+      pl_text_addf(x->out, "%s%s%s", first ? "" : ", ", name_of(x, s, k), between);
       if (isfinite(value[i])) add_decimal(x, value[i]);
-      else add(x, "NaN");
+      else add(x, missing);
       first = false;
     }
   }
+}
+
+// A function of all names. Each value is a function too, so that a root of a negative number spoils
+// no other.
+static void add_julia(exporter* x) {
+  add_header(x,
+             "pleuel_values(; x = 0.1)[\"KEY\"]() is a number; names that are not given have the "
+             "number of the model or NaN.");
+  add(x, "function pleuel_values(; ");
+  add_names_with_numbers(x, " = ", "NaN");
   add(x, ")\n");
   add_abbreviations(x, "  ", " = ", "\n");
   add(x, "\n  return Dict{String,Any}(\n");
   add_entries(x, "    ", " => () -> ", "", true);
   add(x, "  )\nend\n");
+}
+
+static void add_python(exporter* x) {
+  add_header(x,
+             "values(x=0.1)[\"KEY\"]() is a number, or an array where arrays are given; names that "
+             "are not given have the number of the model or NaN.");
+  add(x, "import numpy as np\n\n\ndef values(");
+  add_names_with_numbers(x, "=", "np.nan");
+  add(x, "):\n");
+  add_abbreviations(x, "    ", " = ", "\n");
+  add(x, "\n    return {\n");
+  add_entries(x, "        ", ": lambda: ", "", true);
+  add(x, "    }\n");
 }
 
 static void add_json_parameters(exporter* x, pl_json* j) {
@@ -554,8 +592,8 @@ static void add_json(exporter* x) {
 
 void pl_export(pl_text* out, const pl_export_input* in) {
   // ORDER EXPORTS
-  static void (*const document[])(exporter*) = {add_sympy, add_mathematica, add_maxima, add_julia,
-                                                add_json};
+  static void (*const document[])(exporter*) = {add_sympy, add_mathematica, add_maxima,
+                                                add_julia, add_python,      add_json};
   pl_arena* a = out->arena;
   exporter x = {.out = out,
                 .arena = a,

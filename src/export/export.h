@@ -10,6 +10,7 @@ typedef enum pl_export_target {  // ORDER EXPORTS
   PL_EXPORT_MATHEMATICA,
   PL_EXPORT_MAXIMA,
   PL_EXPORT_JULIA,
+  PL_EXPORT_PYTHON,
   PL_EXPORT_JSON
 } pl_export_target;
 // "sympy"; false: there is none of this name

@@ -33,7 +33,9 @@ static void writes(const desk* d, pl_expr e, const char* const expected[PL_EXPOR
 static void elements_of_families_have_an_index(void** state) {
   desk d = make();
   pl_expr e = pl_at(d.p, d.x, 1, pl_sub(d.p, pl_sym(d.p, d.i), pl_int(d.p, 1)));
-  writes(&d, e, (const char*[]){"x_dot[i - 1]", "xDot[i - 1]", "x_dot[i - 1]", "x_dot[i - 1]"});
+  writes(&d, e,
+         (const char*[]){"x_dot[i - 1]", "xDot[i - 1]", "x_dot[i - 1]", "x_dot[i - 1]",
+                         "x_dot[i - 1]"});
   pl_arena_free(d.a);
 }
 
@@ -41,10 +43,11 @@ static void sums_name_index_and_bounds(void** state) {
   desk d = make();
   pl_expr e = pl_sum_over(d.p, d.i, pl_int(d.p, 1), pl_sym(d.p, d.y),
                           pl_at(d.p, d.x, 0, pl_sym(d.p, d.i)));
-  writes(&d, e,
-         (const char*[]){"sp.Sum(x[i], (i, 1, lambda_))", "Sum[x[i], {i, 1, lambda}]",
-                         "sum(x[i], i, 1, lambda_)",
-                         "sum(x[i] for i in Int(1):Int(lambda); init = 0)"});
+  writes(
+      &d, e,
+      (const char*[]){"sp.Sum(x[i], (i, 1, lambda_))", "Sum[x[i], {i, 1, lambda}]",
+                      "sum(x[i], i, 1, lambda_)", "sum(x[i] for i in Int(1):Int(lambda); init = 0)",
+                      "sum(x[i] for i in range(int(1), int(lambda_) + 1))"});
   pl_arena_free(d.a);
 }
 
@@ -53,14 +56,16 @@ static void broken_powers_stay_exact(void** state) {
   pl_expr e = pl_pow(d.p, pl_sym(d.p, d.y), pl_ratio(d.p, -2, 3));
   writes(&d, e,
          (const char*[]){"1/lambda_**(sp.Rational(2, 3))", "1/lambda^(2/3)", "1/lambda_^(2/3)",
-                         "1/lambda^((2//3))"});
+                         "1/lambda^((2//3))", "1/lambda_**((2/3))"});
   pl_arena_free(d.a);
 }
 
 static void a_negative_base_has_brackets(void** state) {
   desk d = make();
   pl_expr e = pl_pow(d.p, pl_neg(d.p, pl_sym(d.p, d.i)), pl_sym(d.p, d.y));
-  writes(&d, e, (const char*[]){"(-i)**lambda_", "(-i)^lambda", "(-i)^lambda_", "(-i)^lambda"});
+  writes(&d, e,
+         (const char*[]){"(-i)**lambda_", "(-i)^lambda", "(-i)^lambda_", "(-i)^lambda",
+                         "(-i)**lambda_"});
   pl_arena_free(d.a);
 }
 

@@ -113,7 +113,7 @@ check("German: a decimal comma", "0,5 N" in german, german)
 document = json.loads(pleuel(["solve", "--json"], TWO)[1])
 text = json.dumps(document, ensure_ascii=False)
 check("MathML: the unit is upright", '<mi mathvariant=\\"normal\\">kg</mi>' in text, text[:400])
-for target in ("sympy", "maxima", "mathematica", "julia", "json"):
+for target in ("sympy", "maxima", "mathematica", "julia", "python", "json"):
     _, out, _ = pleuel(["export", "--to", target], TWO)
     check(f"{target}: numbers, no units", "kg]" not in out and "2 kg" not in out and "phi" in out, out)
 

@@ -2,8 +2,8 @@
 """Exported formulas mean what the JSON document says.  Usage: export_test.py PLEUEL
 
 Every formula of every model is evaluated at a random point three times: as `expr` of the JSON document by the reader of
-tests/founding/formulas.py, as exported by the program it was exported for, and from the tree of the JSON export.  SymPy and
-Maxima are used where they are installed.  What is written for Julia and Mathematica is read by the same small reader after
+tests/founding/formulas.py, as exported by the program it was exported for, and from the tree of the JSON export.  SymPy,
+NumPy and Maxima are used where they are installed.  What is written for Julia and Mathematica is read by the same small reader after
 its spelling was translated back; the programs themselves are not asked.
 """
 import ast
@@ -32,7 +32,7 @@ print(f"# seed {seed}")
 models = [here / "names.pleuel", *(p for p in sorted((root / "examples").glob("*.pleuel")) if p.stem != "caraxis"),
           *sorted((root / "tests/problems").glob("*.pleuel"))]
 RANDOM_SYSTEMS = 8
-SYMPY_PYTHONS = [sys.executable, "/usr/bin/python3"]
+PYTHONS = [sys.executable, "/usr/bin/python3"]
 work = tempfile.TemporaryDirectory(prefix="pleuel export ")
 
 
@@ -180,9 +180,9 @@ for name, path, points in json.load(sys.stdin):
 """
 
 
-def sympy_python():
-    for python in SYMPY_PYTHONS:
-        if shutil.which(python) and subprocess.run([python, "-c", "import sympy"], capture_output=True).returncode == 0:
+def python_with(module):
+    for python in PYTHONS:
+        if shutil.which(python) and subprocess.run([python, "-c", f"import {module}"], capture_output=True).returncode == 0:
             return python
     return None
 
@@ -195,7 +195,7 @@ def test_sympy():
             check(f"sympy: {c.name} is Python", True)
         except SyntaxError as trouble:
             check(f"sympy: {c.name} is Python", False, trouble)
-    python = sympy_python()
+    python = python_with("sympy")
     if not python:
         skip("SymPy evaluates", "sympy is not installed")
         return
@@ -209,6 +209,53 @@ def test_sympy():
         numbers = {k: p["number"] for k, p in c.document["parameters"].items() if p["number"] is not None}
         check(f"sympy: {c.name} has the parameters", got.get(c.name, {}).get("parameters") == numbers, numbers)
     compare("sympy", got)
+
+
+# ------------------------------------------------------------------------------------------------ Python
+NUMPY_WORKER = r"""
+import json, sys
+import numpy as np
+np.seterr(all="ignore")
+for name, path, points, spelling in json.load(sys.stdin):
+    space = {}
+    exec(compile(open(path, encoding="utf-8").read(), path, "exec"), space)
+    answers = {"keys": sorted(space["values"]())}
+    taken = space["values"].__code__.co_varnames[:space["values"].__code__.co_argcount]
+    for key, point in points.items():
+        try:
+            at = {spelling.get(n, n): v for n, v in point.items()}
+            at = {n: v for n, v in at.items() if n in taken}
+            alone = float(space["values"](**at)[key]())
+            many = space["values"](**{n: np.array([v, v, v]) for n, v in at.items()})[key]()
+            assert np.allclose(many, alone, rtol=1e-12, equal_nan=True), "an array gives another value"
+            answers[key] = alone
+        except Exception as trouble:
+            answers[key] = repr(trouble)
+    print(json.dumps([name, answers]))
+"""
+
+
+def test_python():
+    texts = {c.name: export(c, "python") for c in cases}
+    for c in cases:
+        try:
+            ast.parse(texts[c.name][1])
+            check(f"python: {c.name} is Python", True)
+        except SyntaxError as trouble:
+            check(f"python: {c.name} is Python", False, trouble)
+    python = python_with("numpy")
+    if not python:
+        skip("NumPy evaluates", "numpy is not installed")
+        return
+    jobs = [[c.name, str(texts[c.name][0]), c.points, {ours: theirs for theirs, ours in renamed(texts[c.name][1]).items()}]
+            for c in cases]
+    r = subprocess.run([python, "-c", NUMPY_WORKER], input=json.dumps(jobs).encode(), capture_output=True, timeout=200)
+    got = dict(json.loads(line) for line in r.stdout.decode().splitlines())
+    check("NumPy read every file", len(got) == len(cases), r.stderr.decode()[-800:])
+    for c in cases:
+        keys = got.get(c.name, {}).get("keys")
+        check(f"python: {c.name} has every value under its key", keys == sorted(c.entries), f"{keys}\n{sorted(c.entries)}")
+    compare("python", got)
 
 
 # ------------------------------------------------------------------------------------------------ Maxima
@@ -366,6 +413,7 @@ def test_program():
 
 test_json()
 test_sympy()
+test_python()
 test_maxima()
 test_by_reading("julia", " => () -> ", from_julia)
 skip("Julia evaluates", "what is written for Julia is only read, not run")
