@@ -13,7 +13,6 @@ import unicodedata
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 COLUMNS = 100
 VERSION = "14"
-BY_HAND = {"include/pleuel.h"}    # a text to be read from top to bottom
 SKIPPED = 77
 
 
@@ -84,7 +83,6 @@ def layout(files):
         return None, "the layout needs clang-format " + VERSION
     if not re.search(rf"version {VERSION}\.", said):
         return None, f"the layout is that of clang-format {VERSION}, here is {said.strip()}"
-    files = [f for f in files if str(f.relative_to(ROOT)) not in BY_HAND]
     done = subprocess.run(["clang-format", "--dry-run", "-Werror", "--ferror-limit=1", *files], cwd=ROOT, capture_output=True, text=True)
     return sorted(set(re.findall(r"^(\S+?):\d+:\d+: error", done.stderr, re.M))), None
 
@@ -93,7 +91,7 @@ def main():
     files, bad = tracked(), []
     for path in files:
         name, text = path.relative_to(ROOT), path.read_text(encoding="utf-8")
-        for n, line in enumerate([] if str(name) in BY_HAND else text.splitlines(), 1):
+        for n, line in enumerate(text.splitlines(), 1):
             if width(line) > COLUMNS:
                 bad.append(f"{name}:{n}: {width(line)} columns")
         bad += [f"{name}:{n}: a comma joins two statements" for s, n in statements(bare(text)) if joins(s)]
