@@ -2,7 +2,7 @@
 // orthogonal, e_i points along them, and the equation of q_i divided by |dX/dq_i| is the component
 // of Newton's law along e_i.
 // See theory (2.6).
-#include "mechanics/mechanics.h"
+#include "mechanics/equilibria.h"
 
 const char* pl_unit_vector(pl_analysis* d, int i) {
   return pl_format(d->arena, "e_%s", pl_symbol_get(d->pool, d->q.at[i].q)->name);
@@ -43,11 +43,17 @@ static pl_expr without_bars(pl_analysis* d, pl_expr e) {
 }
 
 // |dX/dq_i|, with the sign of a radius taken positive (sin θ of spherical coordinates too: recorded
-// as assumption).
+// as assumption). What the energies need is assumed before, so that signs that are new belong to the
+// directions of unit vectors only.
 static pl_expr scale_of(pl_analysis* d, const pl_particle* k, int i) {
+  pl_alg_normal(d->tower, pl_at_rest(d, d->L));
+  int before = 0, after = 0;
+  pl_tower_used(d->tower, &before);
   pl_expr square = pl_alg_normal(d->tower, dot_columns(d, k, i, i));
-  pl_expr scale = pl_alg_normal(d->tower, pl_sqrt(d->pool, square));
-  return without_bars(d, scale);
+  pl_expr scale = without_bars(d, pl_alg_normal(d->tower, pl_sqrt(d->pool, square)));
+  const pl_fact* used = pl_tower_used(d->tower, &after);
+  for (int j = before; j < after; j++) pl_push(d->arena, d->directions, used[j]);
+  return scale;
 }
 
 bool pl_frame_find(pl_analysis* d, const pl_particle* k, pl_frame* out) {

@@ -167,6 +167,9 @@ struct pl_analysis {
   PL_VEC(pl_replace) fixed;    // q -> f, v -> f', a -> f'' of the fixed coordinates
   PL_VEC(pl_replace) contact;  // of the ones fixed by contact
 
+  // frames.c: signs that nothing but the directions of unit vectors needs
+  PL_VEC(pl_fact) directions;
+
   // sides.c: signs of places and velocities that were taken for granted
   PL_VEC(pl_fact) sides;
   int n_looked_at;  // assumptions of the tower that were looked at for them

@@ -278,6 +278,13 @@ static bool negative_there(pl_analysis* d, pl_expr e, const pl_rest* r) {
          || pl_number(d, e) < -rounding;
 }
 
+static bool is_direction(const pl_analysis* d, const pl_fact* side) {
+  for (int k = 0; k < d->directions.n; k++) {
+    if (pl_same(d->directions.at[k].difference, side->difference)) return true;
+  }
+  return false;
+}
+
 // On the side that the formulas were derived for.  out->side: the sides that were taken.
 static bool on_the_side(pl_analysis* d, const pl_rest* r, pl_rests* out) {
   const pl_fact* side;
@@ -285,7 +292,7 @@ static bool on_the_side(pl_analysis* d, const pl_rest* r, pl_rests* out) {
   bool inside = true;
   out->n_sides = 0;
   for (int k = 0; k < n; k++) {
-    if (!pl_side_is_of_place(d, &side[k])) continue;
+    if (!pl_side_is_of_place(d, &side[k]) || is_direction(d, &side[k])) continue;
     inside &= !negative_there(d, pl_on_maps(d, side[k].difference), r);
     out->side[out->n_sides++] = side[k];
   }
