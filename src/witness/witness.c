@@ -373,14 +373,44 @@ static bool keeps_branches(pl_witness* w, const pl_trace* t, const pl_trace_samp
   return true;
 }
 
+static void mark_border(pl_witness* w, const pl_trace* t, pl_expr side, bool* border) {
+  static const double small = 1e-9;  // of its largest value on the motion
+  double most = 0;
+  double* x = PL_ARRAY(w->arena, double, t->samples.n + 1);
+  for (int k = 0; k < t->samples.n; k++) {
+    pl_state_set(w, t, &t->samples.at[k], &t->samples.at[0], 0);
+    x[k] = pl_state_value(w, side);
+    most = fmax(most, fabs(x[k]));
+  }
+  for (int k = 0; k < t->samples.n; k++) border[k] |= fabs(x[k]) < small * most;
+}
+
+// At a sample on the border of two sides, |x - a| with x = a, accelerations and forces may jump: the
+// motion has those of neither side there.  Whether each sample is such a one.
+static bool* find_borders(pl_witness* w, const pl_trace* t) {
+  bool* border = PL_ARRAY(w->arena, bool, t->samples.n + 1);
+  const pl_tower* seen = NULL;
+  for (int i = 0; i < w->solution->sections.n; i++) {
+    const pl_tower* tower = w->solution->sections.at[i].tower;
+    if (!tower || tower == seen) continue;
+    seen = tower;
+    int n = 0;
+    const pl_fact* fact = pl_tower_used(tower, &n);
+    for (int k = 0; k < n; k++) mark_border(w, t, fact[k].difference, border);
+  }
+  return border;
+}
+
 static void compare_along(pl_witness* w, const pl_witnessed* start, pl_verdicts* v) {
   if (!is_usable(start->trace)) return;
   find_largest(w, start);
   pl_memory* memory = PL_ARRAY(w->arena, pl_memory, w->statements.n + 1);
   for (int i = 0; i < w->statements.n; i++) memory[i].phase = -1;
+  const bool* border = find_borders(w, start->trace);
   for (int k = 0;
        k < start->trace->samples.n && keeps_branches(w, start->trace, &start->trace->samples.at[k]);
        k++) {
+    if (border[k]) continue;
     for (int stage = 0; stage <= last_stage(w); stage++)
       compare_stage(w, stage, start, &start->trace->samples.at[k], memory, v);
   }
