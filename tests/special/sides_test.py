@@ -189,6 +189,48 @@ def check_pulley(program):
     tap.check("and the motion has both sides", stages == [1, 2], stages)
 
 
+def check_jump(program):
+    """The motion has a sample where the force of the spring jumps; the formulas of the sides stand all the same."""
+    text = """coord x1, x2
+axes x down
+param m1 = 2.2, m2 = 2.49, g = 9.81, k = 2.69, d = 0.57
+mass A1: m1 at (x1)
+mass A2: m2 at (x2)
+gravity g along x
+spring k, rest d between A1 and (0.67)
+constraint rope: x1 + x2 <= 1.02
+init x1 = 0.68, x2 = 0.34, x1' = 0, x2' = 0
+ask solve x1''
+simulate 0..1
+"""
+    document, code = solve(program, text)
+    value = [v for a in document["answers"].values() for i in a for v in i["values"] if v["name"] == "x1_ddot" and v.get("expr")]
+    at = {"x1": 0.68, "m1": 2.2, "m2": 2.49, "g": 9.81, "k": 2.69, "d": 0.57}
+    true = ((2.2 - 2.49) * 9.81 - 2.69 * (0.68 - 0.67 - 0.57)) / (2.2 + 2.49)
+    got = Formula(value[0]["expr"]).value(at) if value else None
+    tap.check("a sample where the force jumps withdraws nothing", code == 0 and got is not None and abs(got - true) < 1e-9, (code, got, true))
+
+
+def check_directions(program):
+    """A unit vector whose length takes a sign for granted does not halve the list of rests: ω² R cos α = g or sin α = 0, α = 3 w."""
+    text = """param m = 0.1, R = 0.5, ω = 6, g = 9.81
+coord u, w, r
+mass m at (r sin (3 w) cos u, r sin (3 w) sin u, -r cos (3 w))
+gravity g along -z
+constraint hoop: r = R
+constraint drive: u = ω t
+init w = 0.1, w' = 0
+ask a: lagrange1 in (r, w, u)
+ask b: equilibria
+"""
+    document, code = solve(program, text)
+    found = sorted(v["components"][0]["number"] for i in items(document, "equilibria") for v in i["values"] if v.get("components"))
+    alpha = [0.0, math.pi] + [s * math.acos(9.81 / (36 * 0.5)) for s in (1, -1)]
+    true = sorted(w for a in alpha for n in range(-3, 4) for w in [(a + 2 * math.pi * n) / 3] if -math.pi + 1e-9 < w <= math.pi + 1e-9)
+    near = len(found) == len(true) and all(abs(a - b) < 1e-5 for a, b in zip(found, true))
+    tap.check("directions of unit vectors leave all places of rest", code == 0 and near, (code, found, true))
+
+
 def main():
     program = sys.argv[1]
     check_motion(program)
@@ -199,6 +241,8 @@ def main():
     check_angle(program)
     check_sets(program)
     check_pulley(program)
+    check_jump(program)
+    check_directions(program)
     tap.done()
 
 
