@@ -43,8 +43,8 @@ static pl_expr without_bars(pl_analysis* d, pl_expr e) {
 }
 
 // |dX/dq_i|, with the sign of a radius taken positive (sin θ of spherical coordinates too: recorded
-// as assumption). What the energies need is assumed before, so that signs that are new belong to the
-// directions of unit vectors only.
+// as assumption). What the energies need is assumed before, so that signs that are new belong to
+// the directions of unit vectors only.
 static pl_expr scale_of(pl_analysis* d, const pl_particle* k, int i) {
   pl_alg_normal(d->tower, pl_at_rest(d, d->L));
   int before = 0, after = 0;

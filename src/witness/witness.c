@@ -385,8 +385,8 @@ static void mark_border(pl_witness* w, const pl_trace* t, pl_expr side, bool* bo
   for (int k = 0; k < t->samples.n; k++) border[k] |= fabs(x[k]) < small * most;
 }
 
-// At a sample on the border of two sides, |x - a| with x = a, accelerations and forces may jump: the
-// motion has those of neither side there.  Whether each sample is such a one.
+// At a sample on the border of two sides, |x - a| with x = a, accelerations and forces may jump:
+// the motion has those of neither side there. Whether each sample is such a one.
 static bool* find_borders(pl_witness* w, const pl_trace* t) {
   bool* border = PL_ARRAY(w->arena, bool, t->samples.n + 1);
   const pl_tower* seen = NULL;
