@@ -282,7 +282,7 @@ branch sin β > 0
 simulate 0..1
 """
 rows, code, told = table(FOURBAR, "--dt", "0.001")
-E, M = [float(row["E"]) for row in rows], [float(row["M"]) for row in rows]
+E, M = [float(row["E"]) for row in rows], [float(row["lambda_drive"]) for row in rows]
 worst = max(abs((E[i + 1] - E[i - 1]) / 0.002 / 5 - M[i]) for i in range(1, len(E) - 1))
 check("the torque of a driven four-bar linkage without mass in two of its bars is the power over the speed",
       code == 0 and worst < 1e-3 and max(map(abs, M)) < 2, f"{worst}\n{told}")
