@@ -120,9 +120,9 @@ static bool is_meant(const pl_witness* w, const pl_section* s, const pl_trace* t
 }
 
 static void refuse_limit(pl_witness* w, int section, const pl_value* v, const pl_distance* d) {
-  static const char* const words[] = {
-      PL_KEY("Formula and motion disagree about {1} near the limit: the formula gives %s, the "
-             "motion %s.")};
+  const char* const words[] = {
+      PL_BOTH("Formula and motion disagree about {1} near the limit: the formula gives %s, the "
+              "motion %s.")};
   const char* said[2];
   for (int lang = 0; lang < 2; lang++) {
     said[lang] = pl_format(w->arena, words[lang], number(w, d->shown, (pl_language)lang),
